@@ -1,0 +1,68 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace taylorcal {
+
+/// Row-major, as HDF5 and numpy store it.
+using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// Writes one HDF5 file atomically: everything goes to a temporary name, and `close`
+/// renames it. Files made of the same values have the same bytes (no time stamps).
+/// A name may hold slashes ("fields/temperature_K"): groups are made as needed.
+class Hdf5Writer {
+  public:
+    explicit Hdf5Writer(std::filesystem::path path);
+    ~Hdf5Writer();  ///< Removes the temporary file unless `close` was called.
+    Hdf5Writer(const Hdf5Writer&) = delete;
+    Hdf5Writer& operator=(const Hdf5Writer&) = delete;
+
+    void matrix(const std::string& name, const RowMatrix& values);
+    void numbers(const std::string& name, const std::vector<double>& values);
+    void integers(const std::string& name, const std::vector<std::int64_t>& values);
+    void texts(const std::string& name, const std::vector<std::string>& values);
+    /// Attributes of the file, or of the object `on`.
+    void attribute(const std::string& name, const std::string& text,
+                   const std::string& on = "/");
+    void attribute(const std::string& name, double number, const std::string& on = "/");
+    void attribute(const std::string& name, const std::vector<std::string>& texts,
+                   const std::string& on = "/");
+    /// Flushes to the disk and renames to the final name.
+    void close();
+
+  private:
+    std::filesystem::path path_;
+    std::filesystem::path temporary_;
+    std::int64_t file_ = -1;
+};
+
+/// Reads such a file. InputError names the file and the remedy when it is missing,
+/// truncated or lacks a dataset or attribute, or when its `schema` is another.
+class Hdf5Reader {
+  public:
+    explicit Hdf5Reader(std::filesystem::path path);
+    ~Hdf5Reader();
+    Hdf5Reader(const Hdf5Reader&) = delete;
+    Hdf5Reader& operator=(const Hdf5Reader&) = delete;
+
+    void expect_schema(const std::string& schema) const;
+    bool has(const std::string& name) const;
+    RowMatrix matrix(const std::string& name) const;
+    std::vector<double> numbers(const std::string& name) const;
+    std::vector<std::int64_t> integers(const std::string& name) const;
+    std::vector<std::string> texts(const std::string& name) const;
+    std::string text_attribute(const std::string& name, const std::string& on = "/") const;
+    double number_attribute(const std::string& name, const std::string& on = "/") const;
+    std::vector<std::string> texts_attribute(const std::string& name,
+                                             const std::string& on = "/") const;
+
+  private:
+    std::filesystem::path path_;
+    std::int64_t file_ = -1;
+};
+
+}  // namespace taylorcal

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace taylorcal {
+
+/// What every output records: program, version, source revision, compiler, processor,
+/// seed and configuration (whole, and its digest). No dates: same inputs, same bytes.
+nlohmann::json provenance(const std::string& program, std::uint64_t seed,
+                          const nlohmann::json& configuration);
+
+/// Stable 64-bit FNV-1a digest of a text, as 16 hexadecimal digits.
+std::string digest(const std::string& text);
+
+/// Project version and source revision, e.g. "0.1.0 (3f2a91c)".
+std::string version();
+
+}  // namespace taylorcal

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "solver/material/parameters.hpp"
+#include "solver/specimen/shape.hpp"
+
+namespace taylorcal::impact {
+
+enum class Geometry { axisymmetric, three_dimensional };  // "axisymmetric", "3d"
+
+/// How finely and how a run is computed.
+struct Numerics {
+    Geometry geometry = Geometry::axisymmetric;
+    int elements_across_radius = 8;   ///< cells, or particles, over the rear radius
+    int grains_per_point = 8;         ///< grains that share a point's strain
+    double cfl = 0.28;                ///< share of the stable step
+    double linear_viscosity = 0.06;
+    double quadratic_viscosity = 1.0;
+    double hourglass = 0.1;
+    double stop_time_limit_s = 400e-6;   ///< simulated time after which a run gives up
+    std::int64_t step_limit = 400000;
+    double cpu_limit_s = 3600;
+};
+
+/// "coarse", "standard" or "fine" for a geometry.
+Numerics numerics_for(Geometry geometry, const std::string& fidelity);
+
+/// One Taylor impact: a specimen that flies towards a rigid, frictionless anvil (z < 0).
+struct ImpactCase {
+    specimen::Shape shape = specimen::make_shape(specimen::ShapeKind::uniform_cylinder);
+    double velocity_m_s = 100;
+    double initial_temperature_K = 300;
+    material::Parameters material;
+    Numerics numerics;
+    std::uint64_t seed = 1;        ///< of the grain orientations
+    double run_until_s = 0;        ///< if positive: stop at this time, not with the rear
+    int history_samples = 200;     ///< about as many time records
+};
+
+}  // namespace taylorcal::impact

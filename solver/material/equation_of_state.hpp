@@ -1,16 +1,16 @@
 #pragma once
 
-#include <memory>
-
 #include "solver/material/parameters.hpp"
+
+#include <memory>
 
 namespace taylorcal::material {
 
 /// What an equation of state answers at (rho, E). SI units.
 struct ThermoState {
-    double pressure;     ///< P [Pa]
-    double temperature;  ///< T [K]
-    double bulk_modulus; ///< adiabatic K = rho (dP/drho)_S [Pa]
+    double pressure;      ///< P [Pa]
+    double temperature;   ///< T [K]
+    double bulk_modulus;  ///< adiabatic K = rho (dP/drho)_S [Pa]
 };
 
 /// P, T and K of (density [kg/m3], hydrostatic specific energy E [J/kg]); E = 0 at
@@ -19,8 +19,9 @@ class EquationOfState {
   public:
     virtual ~EquationOfState() = default;
     virtual ThermoState at(double density, double energy) const = 0;
-    /// The energy at which the undeformed metal has `temperature` [J/kg].
+    /// Energy [J/kg] and density [kg/m3] of the metal at zero pressure and `temperature`.
     virtual double energy_at_temperature(double temperature) const = 0;
+    virtual double density_at_temperature(double temperature) const = 0;
 };
 
 std::unique_ptr<EquationOfState> make_equation_of_state(const Parameters& parameters);

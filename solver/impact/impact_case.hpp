@@ -1,10 +1,11 @@
 #pragma once
 
-#include <cstdint>
-#include <string>
-
 #include "solver/material/parameters.hpp"
 #include "solver/specimen/shape.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
 
 namespace taylorcal::impact {
 
@@ -13,18 +14,24 @@ enum class Geometry { axisymmetric, three_dimensional };  // "axisymmetric", "3d
 /// How finely and how a run is computed.
 struct Numerics {
     Geometry geometry = Geometry::axisymmetric;
-    int elements_across_radius = 8;   ///< cells, or particles, over the rear radius
-    int grains_per_point = 8;         ///< grains that share a point's strain
-    double cfl = 0.28;                ///< share of the stable step
+    int elements_across_radius = 8;  ///< cells, or particles, over the rear radius
+    int grains_per_point = 8;        ///< grains that share a point's strain
+    double cfl = 0.28;               ///< share of the stable step
     double linear_viscosity = 0.06;
     double quadratic_viscosity = 1.0;
     double hourglass = 0.1;
-    double stop_time_limit_s = 400e-6;   ///< simulated time after which a run gives up
+    double stop_time_limit_s = 400e-6;  ///< simulated time after which a run gives up
     std::int64_t step_limit = 400000;
     double cpu_limit_s = 3600;
 };
 
-/// "coarse", "standard" or "fine" for a geometry.
+/// The words users write, in the order of the enumeration and from coarse to fine.
+const std::vector<std::string>& geometry_names();
+const std::vector<std::string>& fidelity_names();
+/// InputError with the nearest name when unknown.
+Geometry geometry_from_name(const std::string& name);
+
+/// "coarse", "standard" or "fine" for a geometry. InputError when unknown.
 Numerics numerics_for(Geometry geometry, const std::string& fidelity);
 
 /// One Taylor impact: a specimen that flies towards a rigid, frictionless anvil (z < 0).
@@ -34,9 +41,9 @@ struct ImpactCase {
     double initial_temperature_K = 300;
     material::Parameters material;
     Numerics numerics;
-    std::uint64_t seed = 1;        ///< of the grain orientations
-    double run_until_s = 0;        ///< if positive: stop at this time, not with the rear
-    int history_samples = 200;     ///< about as many time records
+    std::uint64_t seed = 1;     ///< of the grain orientations
+    double run_until_s = 0;     ///< if positive: stop at this time, not with the rear
+    int history_samples = 200;  ///< about as many time records
 };
 
 }  // namespace taylorcal::impact

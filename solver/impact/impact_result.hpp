@@ -1,10 +1,10 @@
 #pragma once
 
+#include "solver/observe/sizes.hpp"
+
 #include <cstdint>
 #include <string>
 #include <vector>
-
-#include "solver/observe/sizes.hpp"
 
 namespace taylorcal::impact {
 
@@ -12,18 +12,18 @@ enum class Status { stopped, not_stopped, failed };  // 0, 1, 2 in the database
 
 /// Extremes and integrals over a run that help to say where a model fails.
 struct Descriptors {
-    double stop_time_us = 0;            ///< the rear's axial velocity crosses zero
+    double stop_time_us = 0;  ///< the rear's axial velocity crosses zero
     double largest_temperature_K = 0;
     double peak_strain_rate_per_s = 0;  ///< radial rate of the contact spot
     double plastic_work_J = 0;
-    double sliding_distance_mm = 0;     ///< largest radial travel along the anvil
+    double sliding_distance_mm = 0;  ///< largest radial travel along the anvil
     double smallest_grain_um = 0;
     double largest_weakened_fraction = 0;
     double largest_plastic_strain = 0;  ///< equivalent
     double mean_von_mises_GPa = 0;      ///< over the deformed part, at half the stop time
     double viscous_share = 0;           ///< artificial viscosity's share of the work
     double hourglass_share = 0;
-    double energy_error = 0;            ///< |energy gained or lost| / initial kinetic
+    double energy_error = 0;  ///< |energy gained or lost| / initial kinetic
 };
 const std::vector<std::string>& descriptor_names();
 std::vector<double> descriptor_values(const Descriptors& descriptors);
@@ -40,7 +40,8 @@ struct HistoryRecord {
     double total_energy_J;
 };
 
-/// Fields at the end, one entry a particle or cell; positions in mm (axisymmetric: y = 0).
+/// Fields at the end, one entry a particle or cell; positions in mm (axisymmetric: y =
+/// 0).
 struct Fields {
     std::vector<double> x_mm, y_mm, z_mm;
     std::vector<double> initial_x_mm, initial_y_mm, initial_z_mm;
@@ -55,14 +56,14 @@ struct Fields {
 
 struct ImpactResult {
     Status status = Status::failed;
-    std::string reason;                ///< why it is not `stopped`, empty otherwise
+    std::string reason;  ///< why it is not `stopped`, empty otherwise
     observe::Sizes sizes;
     Descriptors descriptors;
     observe::DeformedProfile profile;  ///< the outline
     std::vector<HistoryRecord> history;
     Fields fields;
     std::int64_t steps = 0;
-    std::int64_t points = 0;           ///< particles or cells
+    std::int64_t points = 0;  ///< particles or cells
     std::int64_t grain_updates = 0;
     double cpu_s = 0;
 };

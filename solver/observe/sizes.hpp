@@ -12,8 +12,8 @@ struct DeformedProfile {
     std::vector<double> outline_height;
     std::vector<double> outline_radius;
     double total_length = 0;
-    double transition_height = 0;    ///< mean height of the head-rear material plane
-    double transition_radius = 0;    ///< its outline's radius
+    double transition_height = 0;  ///< mean height of the head-rear material plane
+    double transition_radius = 0;  ///< its outline's radius
     double initial_length = 0;
     double initial_rear_radius = 0;
 };
@@ -21,12 +21,12 @@ struct DeformedProfile {
 /// The measured sizes [mm]; NaN where a size has no meaning.
 struct Sizes {
     double final_length_mm;
-    double impact_diameter_mm;       ///< 2 x largest outline radius within 2 mm of the anvil
+    double impact_diameter_mm;  ///< 2 x largest outline radius within 2 mm of the anvil
     double head_length_mm;
     double rear_length_mm;
     double transition_diameter_mm;
-    double undeformed_length_mm;     ///< rear part within 0.5 % of its first diameter
-    double diameter_at_0p2L0_mm;     ///< at 0.2 x initial length above the impact face
+    double undeformed_length_mm;  ///< rear part within 0.5 % of its first diameter
+    double diameter_at_0p2L0_mm;  ///< at 0.2 x initial length above the impact face
 };
 
 Sizes measure(const DeformedProfile& profile);

@@ -6,7 +6,12 @@
 
 namespace taylorcal::specimen {
 
-enum class ShapeKind { uniform_cylinder, reduced_head_4mm, reduced_head_3mm, truncated_cone };
+enum class ShapeKind {
+    uniform_cylinder,
+    reduced_head_4mm,
+    reduced_head_3mm,
+    truncated_cone
+};
 
 /// A profile of revolution standing on the anvil at z = 0: radius r(z) between the
 /// stations, piecewise linear; a step is two stations at one height. Lengths in m.

@@ -1,0 +1,61 @@
+#include "common/errors.hpp"
+#include "common/json_reader.hpp"
+#include "solver/impact/impact_case.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace taylorcal::impact {
+namespace {
+
+/// Where `word` stands among `known`; InputError with the nearest one otherwise.
+std::size_t position(const std::string& what, const std::string& word,
+                     const std::vector<std::string>& known) {
+    const auto found = std::find(known.begin(), known.end(), word);
+    if (found != known.end()) return static_cast<std::size_t>(found - known.begin());
+    const std::string near = nearest_word(word, known);
+    throw InputError(fmt::format("{} \"{}\" is unknown{}. Use one of: {}.", what, word,
+                                 near.empty() ? "" : " (did you mean \"" + near + "\"?)",
+                                 fmt::join(known, ", ")));
+}
+
+struct Resolution {
+    int elements_across_radius;
+    int grains_per_point;
+};
+
+// By fidelity. One grain a particle in 3D is the paper's method; in (r, z) a cell stands
+// for a whole ring, so that its grains must be averaged.
+constexpr Resolution axisymmetric_resolution[] = {{8, 8}, {12, 16}, {16, 16}};
+constexpr Resolution three_dimensional_resolution[] = {{6, 1}, {9, 1}, {14, 1}};
+
+}  // namespace
+
+const std::vector<std::string>& geometry_names() {
+    static const std::vector<std::string> names = {"axisymmetric", "3d"};
+    return names;
+}
+
+const std::vector<std::string>& fidelity_names() {
+    static const std::vector<std::string> names = {"coarse", "standard", "fine"};
+    return names;
+}
+
+Geometry geometry_from_name(const std::string& name) {
+    return static_cast<Geometry>(position("geometry", name, geometry_names()));
+}
+
+Numerics numerics_for(Geometry geometry, const std::string& fidelity) {
+    const std::size_t level = position("fidelity", fidelity, fidelity_names());
+    const Resolution resolution = geometry == Geometry::axisymmetric
+                                      ? axisymmetric_resolution[level]
+                                      : three_dimensional_resolution[level];
+    Numerics numerics;
+    numerics.geometry = geometry;
+    numerics.elements_across_radius = resolution.elements_across_radius;
+    numerics.grains_per_point = resolution.grains_per_point;
+    return numerics;
+}
+
+}  // namespace taylorcal::impact

@@ -1,0 +1,107 @@
+#include "solver/observe/sizes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace taylorcal::observe {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double foot_zone = 2e-3;           // height read as the foot [m]
+constexpr double undeformed_change = 0.005;  // of the radius
+constexpr double low_section = 0.2;  // height of the low diameter / initial length
+
+/// Radius where the piece of outline from point i to i + 1 crosses `height`.
+double radius_on_piece(const DeformedProfile& profile, std::size_t i, double height) {
+    const double lower = profile.outline_height[i];
+    const double rise = profile.outline_height[i + 1] - lower;
+    if (rise == 0)
+        return std::max(profile.outline_radius[i], profile.outline_radius[i + 1]);
+    return std::lerp(profile.outline_radius[i], profile.outline_radius[i + 1],
+                     (height - lower) / rise);
+}
+
+/// The silhouette's radius at a height: the largest where a folded outline crosses it
+/// several times, as a calliper reads it. NaN above the specimen.
+double silhouette_radius(const DeformedProfile& profile, double height) {
+    double largest = nan;
+    for (std::size_t i = 0; i + 1 < profile.outline_height.size(); ++i) {
+        const auto [low, high] =
+            std::minmax(profile.outline_height[i], profile.outline_height[i + 1]);
+        if (height >= low && height <= high)
+            largest = std::fmax(largest, radius_on_piece(profile, i, height));
+    }
+    return largest;
+}
+
+/// The largest radius of the outline between the anvil and the top of the foot zone,
+/// where the piece that leaves the zone is cut.
+double foot_radius(const DeformedProfile& profile) {
+    double largest = silhouette_radius(profile, foot_zone);
+    for (std::size_t i = 0; i < profile.outline_height.size(); ++i)
+        if (profile.outline_height[i] <= foot_zone)
+            largest = std::fmax(largest, profile.outline_radius[i]);
+    return largest;
+}
+
+/// Radii with isolated outliers removed: the median of three neighbours changes no
+/// monotone stretch, so edges and steps stay where they are.
+std::vector<double> without_outliers(const std::vector<double>& radius) {
+    std::vector<double> smooth = radius;
+    for (std::size_t i = 1; i + 1 < radius.size(); ++i) {
+        const auto [low, high] = std::minmax(radius[i - 1], radius[i + 1]);
+        smooth[i] = std::clamp(radius[i], low, high);
+    }
+    return smooth;
+}
+
+/// Length of the rear part, contiguous from the rear face, that keeps its first radius.
+double undeformed_length(const DeformedProfile& profile) {
+    const std::vector<double> radius = without_outliers(profile.outline_radius);
+    const auto& height = profile.outline_height;
+    const auto change = [&](std::size_t i) {
+        return std::abs(radius[i] / profile.initial_rear_radius - 1);
+    };
+    std::size_t i = radius.size() - 1;
+    if (change(i) > undeformed_change) return 0;
+    while (i > 0 && change(i - 1) <= undeformed_change) --i;
+    if (i == 0) return profile.total_length;
+    const double share = (undeformed_change - change(i)) / (change(i - 1) - change(i));
+    return profile.total_length - std::lerp(height[i], height[i - 1], share);
+}
+
+}  // namespace
+
+Sizes measure(const DeformedProfile& profile) {
+    constexpr double to_mm = 1e3;
+    Sizes sizes{nan, nan, nan, nan, nan, nan, nan};
+    if (profile.outline_height.size() < 2 || !std::isfinite(profile.total_length))
+        return sizes;
+    sizes.final_length_mm = to_mm * profile.total_length;
+    sizes.impact_diameter_mm = to_mm * 2 * foot_radius(profile);
+    sizes.head_length_mm = to_mm * profile.transition_height;
+    sizes.rear_length_mm = to_mm * (profile.total_length - profile.transition_height);
+    sizes.transition_diameter_mm = to_mm * 2 * profile.transition_radius;
+    sizes.undeformed_length_mm = to_mm * undeformed_length(profile);
+    sizes.diameter_at_0p2L0_mm =
+        to_mm * 2 * silhouette_radius(profile, low_section * profile.initial_length);
+    return sizes;
+}
+
+const std::vector<std::string>& size_names() {
+    static const std::vector<std::string> names = {
+        "final_length_mm",     "impact_diameter_mm",     "head_length_mm",
+        "rear_length_mm",      "transition_diameter_mm", "undeformed_length_mm",
+        "diameter_at_0p2L0_mm"};
+    return names;
+}
+
+std::vector<double> size_values(const Sizes& sizes) {
+    return {sizes.final_length_mm,        sizes.impact_diameter_mm,
+            sizes.head_length_mm,         sizes.rear_length_mm,
+            sizes.transition_diameter_mm, sizes.undeformed_length_mm,
+            sizes.diameter_at_0p2L0_mm};
+}
+
+}  // namespace taylorcal::observe

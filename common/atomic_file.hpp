@@ -15,6 +15,11 @@ void write_atomically(const std::filesystem::path& path,
 /// The same for a text.
 void write_text_atomically(const std::filesystem::path& path, const std::string& text);
 
+/// The last step alone, for a writer that keeps its temporary file open: flushes
+/// `finished` to the disk and gives it its final name.
+void rename_atomically(const std::filesystem::path& finished,
+                       const std::filesystem::path& path);
+
 /// The whole of a text file. InputError if it cannot be read.
 std::string read_text(const std::filesystem::path& path);
 

@@ -1,10 +1,11 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
+
+#include <Eigen/Core>
 
 namespace taylorcal {
 
@@ -55,7 +56,8 @@ class Hdf5Reader {
     std::vector<double> numbers(const std::string& name) const;
     std::vector<std::int64_t> integers(const std::string& name) const;
     std::vector<std::string> texts(const std::string& name) const;
-    std::string text_attribute(const std::string& name, const std::string& on = "/") const;
+    std::string text_attribute(const std::string& name,
+                               const std::string& on = "/") const;
     double number_attribute(const std::string& name, const std::string& on = "/") const;
     std::vector<std::string> texts_attribute(const std::string& name,
                                              const std::string& on = "/") const;

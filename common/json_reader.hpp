@@ -2,10 +2,11 @@
 
 #include <filesystem>
 #include <initializer_list>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include <nlohmann/json.hpp>
 
 namespace taylorcal {
 
@@ -54,12 +55,16 @@ class JsonReader {
     const std::string& where() const { return where_; }
 
   private:
+    const nlohmann::json& member(std::string_view key) const;
+    [[noreturn]] void fail_type(std::string_view key, std::string_view expected) const;
     nlohmann::json value_;
     std::string where_;
     std::string key_path_;
 };
 
-/// The member of `candidates` nearest to `text` by edit distance, empty when none is near.
-std::string nearest_word(std::string_view text, const std::vector<std::string>& candidates);
+/// The member of `candidates` nearest to `text` by edit distance, empty when none is
+/// near.
+std::string nearest_word(std::string_view text,
+                         const std::vector<std::string>& candidates);
 
 }  // namespace taylorcal

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <mutex>
 #include <string>
 
 namespace taylorcal {
@@ -12,11 +13,14 @@ class Progress {
   public:
     Progress(std::string what, std::uint64_t total);
     ~Progress();
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
     /// `done` more units are finished; `note` is shown after the figures.
     void advance(std::uint64_t done = 1, const std::string& note = "");
 
   private:
     void show(bool last);
+    std::mutex mutex_;
     std::string what_;
     std::string note_;
     std::uint64_t total_;

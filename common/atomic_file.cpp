@@ -1,0 +1,88 @@
+#include "common/atomic_file.hpp"
+
+#include "common/errors.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+#include <system_error>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+namespace taylorcal {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Asks the system to put a file (or a folder's list of names) on the disk.
+void flush_to_disk(const fs::path& path) {
+    const int descriptor = ::open(path.c_str(), O_RDONLY);
+    if (descriptor < 0) return;  // Nothing to flush; the rename below reports it.
+    ::fsync(descriptor);
+    ::close(descriptor);
+}
+
+fs::path folder_of(const fs::path& path) {
+    return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
+}  // namespace
+
+void write_atomically(const fs::path& path,
+                      const std::function<void(const fs::path&)>& write) {
+    const fs::path folder = folder_of(path);
+    require(fs::is_directory(folder),
+            fmt::format("{}: cannot be written (no folder {}). Make the folder or give "
+                        "another name.",
+                        path.string(), folder.string()));
+    require(
+        ::access(folder.c_str(), W_OK) == 0,
+        fmt::format("{}: cannot be written ({}). Choose a folder that you may write to.",
+                    path.string(), std::strerror(errno)));
+    fs::path temporary = path;
+    temporary += ".tmp";
+    std::error_code ignored;
+    try {
+        write(temporary);
+        rename_atomically(temporary, path);
+    } catch (...) {
+        fs::remove(temporary, ignored);
+        throw;
+    }
+}
+
+void rename_atomically(const fs::path& finished, const fs::path& path) {
+    flush_to_disk(finished);
+    std::error_code problem;
+    fs::rename(finished, path, problem);
+    require(!problem,
+            fmt::format("{}: cannot be written ({}).", path.string(), problem.message()));
+    flush_to_disk(folder_of(path));
+}
+
+void write_text_atomically(const fs::path& path, const std::string& text) {
+    write_atomically(path, [&](const fs::path& temporary) {
+        std::ofstream file(temporary, std::ios::binary);
+        file << text << std::flush;
+        require(file.good(), fmt::format("{}: cannot be written ({}).", path.string(),
+                                         std::strerror(errno)));
+    });
+}
+
+std::string read_text(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    require(
+        file.good() && !fs::is_directory(path),
+        fmt::format("{}: cannot be read ({}). Check the name, or make the file first.",
+                    path.string(),
+                    fs::is_directory(path) ? "it is a folder" : std::strerror(errno)));
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+}
+
+}  // namespace taylorcal

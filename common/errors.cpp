@@ -1,0 +1,20 @@
+#include "common/errors.hpp"
+
+#include <exception>
+#include <iostream>
+
+namespace taylorcal {
+
+int guarded_main(const std::string& program, const std::function<int()>& body) {
+    try {
+        return body();
+    } catch (const InputError& error) {
+        std::cerr << program << ": " << error.what() << '\n';
+        return 1;
+    } catch (const std::exception& error) {
+        std::cerr << program << ": " << error.what() << '\n';
+        return 2;
+    }
+}
+
+}  // namespace taylorcal

@@ -1,0 +1,51 @@
+#include "common/provenance.hpp"
+
+#include "common/revision.hpp"
+
+#include <fstream>
+
+#include <fmt/format.h>
+
+namespace taylorcal {
+
+namespace {
+
+std::string processor() {
+    std::ifstream information("/proc/cpuinfo");
+    for (std::string line; std::getline(information, line);) {
+        const std::size_t colon = line.find(": ");
+        if (line.starts_with("model name") && colon != std::string::npos) {
+            return line.substr(colon + 2);
+        }
+    }
+    return "unknown";
+}
+
+}  // namespace
+
+nlohmann::json provenance(const std::string& program, std::uint64_t seed,
+                          const nlohmann::json& configuration) {
+    return {{"program", program},
+            {"version", project_version()},
+            {"revision", source_revision()},
+            {"compiler", compiler()},
+            {"processor", processor()},
+            {"seed", seed},
+            {"configuration", configuration},
+            {"configuration_digest", digest(configuration.dump())}};
+}
+
+std::string digest(const std::string& text) {
+    std::uint64_t hash = 0xCBF29CE484222325;  // FNV-1a offset basis
+    for (const char character : text) {
+        hash ^= static_cast<unsigned char>(character);
+        hash *= 0x100000001B3;  // FNV prime
+    }
+    return fmt::format("{:016x}", hash);
+}
+
+std::string version() {
+    return fmt::format("{} ({})", project_version(), source_revision());
+}
+
+}  // namespace taylorcal

@@ -1,0 +1,286 @@
+#include "solver/material/dislocation_strength.hpp"
+
+#include "solver/material/crystal_frame.hpp"
+#include "solver/material/microstructure.hpp"
+#include "solver/material/mobility.hpp"
+#include "solver/material/symmetric_solve.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace taylorcal::material {
+namespace {
+
+// A substep may strain a grain by at most this: about the elastic strain at first yield,
+// so that the upper yield point is resolved.
+constexpr double largest_strain_increment = 2e-4;
+constexpr int largest_iteration_count = 40;
+// From this iteration on the slope of the drag law is its secant, which cannot overshoot.
+constexpr int first_secant_iteration = 12;
+
+template <class Real>
+inline Lanes<Real> resolve(const Real (&m)[5], const Lanes<Real> (&e)[5]) {
+    return m[0] * e[0] + m[1] * e[1] + m[2] * e[2] + m[3] * e[3] + m[4] * e[4];
+}
+
+template <class Real>
+constexpr Real strain_tolerance = sizeof(Real) == 4 ? Real(2e-8) : Real(1e-12);
+
+}  // namespace
+
+template <class Real>
+DislocationStrength<Real>::DislocationStrength(
+    const Parameters& parameters, const std::vector<Eigen::Quaterniond>& orientations)
+    : parameters_(parameters) {
+    const auto& tensors = schmid_tensors();
+    for (std::size_t d = 0; d < slip_system_count; ++d) {
+        for (std::size_t k = 0; k < 5; ++k)
+            schmid_[d][k] = static_cast<Real>(tensors[d][k]);
+    }
+    constexpr std::size_t lanes = lane_count<Real>;
+    blocks_.resize((orientations.size() + lanes - 1) / lanes);
+    for (std::size_t n = 0; n < blocks_.size(); ++n) {
+        Block& block = blocks_[n];
+        block = Block{};
+        for (std::size_t lane = 0; lane < lanes; ++lane) {
+            const std::size_t grain = std::min(n * lanes + lane, orientations.size() - 1);
+            const Eigen::Matrix3d matrix =
+                orientations[grain].normalized().toRotationMatrix();
+            for (int i = 0; i < 9; ++i) {
+                block.orientation[i][lane] = static_cast<Real>(matrix(i / 3, i % 3));
+            }
+        }
+        for (int d = 0; d < slip_system_count; ++d) {
+            block.mobile[d] += static_cast<Real>(parameters.rho_mobile_initial);
+            block.immobile[d] += static_cast<Real>(parameters.rho_immobile_initial);
+        }
+        block.shear_modulus += 1;
+    }
+}
+
+/// Ys = Ys0 + AI G b sqrt(sum of rhoI), Eq. 20 [Pa].
+template <class Real>
+typename DislocationStrength<Real>::V DislocationStrength<Real>::hardening(
+    const Block& block, V shear_modulus) const {
+    V total = block.immobile[0];
+    for (int d = 1; d < slip_system_count; ++d) total += block.immobile[d];
+    const auto scale =
+        static_cast<Real>(parameters_.hardening_coefficient * parameters_.burgers_vector);
+    return static_cast<Real>(parameters_.initial_yield_stress) +
+           scale * shear_modulus * lane_sqrt(total);
+}
+
+template <class Real>
+int DislocationStrength<Real>::substeps(const Step& step) const {
+    V square = step.rate[0] * step.rate[0];
+    for (int k = 1; k < 5; ++k) square += step.rate[k] * step.rate[k];
+    Real largest = 0;
+    for (std::size_t lane = 0; lane < lane_count<Real>; ++lane) {
+        largest = std::max(largest, square[lane]);
+    }
+    const double strain = std::sqrt(static_cast<double>(largest)) * step.duration;
+    // A NaN strain compares false and takes one substep; the run is caught by its caller.
+    return strain > largest_strain_increment
+               ? static_cast<int>(std::min(1000.0, strain / largest_strain_increment)) + 1
+               : 1;
+}
+
+template <class Real>
+void DislocationStrength<Real>::update(std::size_t block_index,
+                                       const BlockInput<Real>& input,
+                                       BlockOutput<Real>& output) {
+    Block& block = blocks_[block_index];
+    Step step;
+    rotate_with_spin<Real>(input.velocity_gradient, input.time_step, block.orientation);
+    strain_rate_in_crystal<Real>(block.orientation, input.velocity_gradient, step.rate,
+                                 step.dilatation);
+    step.shear_modulus = input.shear_modulus;
+    step.sound_speed = lane_sqrt(input.shear_modulus / input.density);
+    step.drag = static_cast<Real>(parameters_.drag_constant) +
+                static_cast<Real>(parameters_.drag_slope) * input.temperature;
+    block.shear_modulus = input.shear_modulus;
+    step.duration = input.time_step;
+    const int count = substeps(step);
+    step.duration = input.time_step / static_cast<Real>(count);
+
+    V plastic_before[5];
+    std::copy(block.plastic, block.plastic + 5, plastic_before);
+    V work = {};
+    for (int n = 0; n < count; ++n) {
+        Slip slip;
+        solve_stress(block, step, slip);
+        evolve_densities(block, step, slip);
+        work += slip.power;
+    }
+    output.plastic_power = work / static_cast<Real>(count);
+    V square = {};
+    for (int k = 0; k < 5; ++k) {
+        const V increment = block.plastic[k] - plastic_before[k];
+        square += increment * increment;
+    }
+    output.plastic_rate =
+        lane_sqrt(square * static_cast<Real>(2.0 / 3)) / input.time_step;
+
+    V stress[5];
+    for (int k = 0; k < 5; ++k) stress[k] = 2 * step.shear_modulus * block.elastic[k];
+    deviator_in_lab<Real>(block.orientation, stress, output.stress_deviator);
+}
+
+/// Whether no system of any grain reaches its threshold at the elastic strain e.
+template <class Real>
+bool DislocationStrength<Real>::is_elastic(const V (&e)[5], V two_g, V threshold) const {
+    V largest = {};
+    for (int d = 0; d < slip_system_count; ++d) {
+        largest = lane_max(largest, lane_abs(resolve<Real>(schmid_[d], e)));
+    }
+    return !any_lane(two_g * largest > threshold);
+}
+
+/// Backward Euler for e: e + dt sum_d M^d b rhoD V(e) sign = e_old + dt dev(D), Eqs.
+/// 4-14.
+template <class Real>
+void DislocationStrength<Real>::solve_stress(Block& block, const Step& step,
+                                             Slip& slip) const {
+    const V dt = broadcast<Real>(step.duration);
+    const auto b = static_cast<Real>(parameters_.burgers_vector);
+    const V two_g = 2 * step.shear_modulus;
+    const V resistance = hardening(block, step.shear_modulus);
+    const V threshold = resistance / 2;
+    const V scale = b / (step.sound_speed * step.drag);  // zeta per Pa of excess stress
+    const V slope_scale = dt * b * step.sound_speed * scale * two_g;
+
+    V trial[5];
+    V e[5];
+    for (int k = 0; k < 5; ++k) {
+        trial[k] = block.elastic[k] + dt * step.rate[k];
+        e[k] = block.elastic[k];
+    }
+    slip = Slip{};
+    if (is_elastic(trial, two_g, threshold)) {
+        std::copy(trial, trial + 5, block.elastic);
+        std::fill(block.drag_root, block.drag_root + slip_system_count, V{});
+        return;
+    }
+    V slip_strain[5];
+    for (int iteration = 0; iteration < largest_iteration_count; ++iteration) {
+        V jacobian[15] = {};  // lower triangle of I + dt 2G sum_d rhoD dV/dX b^2 M M
+        V residual[5];
+        slip.power = V{};
+        for (int k = 0; k < 5; ++k) slip_strain[k] = V{};
+        for (int d = 0; d < slip_system_count; ++d) {
+            const Real(&m)[5] = schmid_[d];
+            const V resolved = two_g * resolve<Real>(m, e);
+            const V excess = lane_max(lane_abs(resolved) - threshold, V{});
+            const V zeta = scale * excess;
+            const V steepness = drag_steepness(block.drag_root[d]);
+            const V z = drag_root_step(zeta, block.drag_root[d], steepness);
+            const V contraction = drag_contraction(z);
+            const V speed = step.sound_speed * z * contraction;
+            const V rate = b * block.mobile[d] * speed;
+            slip.speed[d] = speed;
+            slip.force[d] = b * excess;
+            slip.power += lane_abs(resolved) * rate;
+            block.drag_root[d] = excess > 0 ? z : V{};
+            V slope =
+                slope_scale * block.mobile[d] * contraction * contraction * contraction;
+            if (iteration < first_secant_iteration) slope *= steepness;
+            slope = excess > 0 ? slope : V{};
+            const V strain = dt * (resolved < 0 ? -rate : rate);
+            for (int i = 0; i < 5; ++i) {
+                slip_strain[i] += m[i] * strain;
+                const V row = m[i] * slope;
+                for (int j = 0; j <= i; ++j) jacobian[i * (i + 1) / 2 + j] += row * m[j];
+            }
+        }
+        for (int k = 0; k < 5; ++k) {
+            jacobian[k * (k + 1) / 2 + k] += 1;
+            residual[k] = trial[k] - slip_strain[k] - e[k];
+        }
+        solve_symmetric<5>(jacobian, residual);
+        V change = lane_abs(residual[0]);
+        e[0] += residual[0];
+        for (int k = 1; k < 5; ++k) {
+            change = lane_max(change, lane_abs(residual[k]));
+            e[k] += residual[k];
+        }
+        if (!any_lane(change > strain_tolerance<Real>)) break;
+    }
+    // The plastic strain is what the elastic strain left of the total, so that both add
+    // up whatever the iteration's last change was.
+    for (int k = 0; k < 5; ++k) {
+        block.plastic[k] += trial[k] - e[k];
+        block.elastic[k] = e[k];
+    }
+}
+
+/// Kinetics of Eqs. 15-19 and the annihilated energy of Eq. 21, sinks implicit.
+/// Generation at a given slip rate falls as 1/rhoD (X = B gamma/(b rhoD)); integrated
+/// exactly it is rhoD -> sqrt(rhoD^2 + 2 rhoD QD dt), which holds over steps in which
+/// rhoD doubles.
+template <class Real>
+void DislocationStrength<Real>::evolve_densities(Block& block, const Step& step,
+                                                 const Slip& slip) const {
+    const Parameters& p = parameters_;
+    const V dt = broadcast<Real>(step.duration);
+    const auto generation =
+        static_cast<Real>((1 - p.taylor_quinney) /
+                          (p.dislocation_energy * electron_volt) * p.burgers_vector);
+    const auto ka_b = static_cast<Real>(p.annihilation_coefficient * p.burgers_vector);
+    const auto vi = static_cast<Real>(p.immobilization_velocity);
+    const auto rho_free = static_cast<Real>(p.rho_mobile_free);
+    const auto line_energy =
+        static_cast<Real>(p.dislocation_energy * electron_volt / p.burgers_vector);
+    V annihilation = {};
+    for (int d = 0; d < slip_system_count; ++d) {
+        const V mobile = block.mobile[d];
+        const V immobile = block.immobile[d];
+        const V capture = vi * immobile * lane_inverse_sqrt(immobile);
+        const V sweep = ka_b * slip.speed[d];
+        const V growth = 2 * dt * generation * slip.force[d] * slip.speed[d];
+        const V generated = mobile * (1 + growth) * lane_inverse_sqrt(1 + growth);
+        const V next = (generated + dt * capture * rho_free) *
+                       lane_inverse(1 + dt * (capture + sweep * (2 * mobile + immobile) +
+                                              step.dilatation));
+        const V next_immobile = (immobile + dt * capture * (next - rho_free)) *
+                                lane_inverse(1 + dt * (sweep * next + step.dilatation));
+        annihilation += sweep * next * (2 * next + 2 * next_immobile);
+        block.mobile[d] = next;
+        block.immobile[d] = lane_max(next_immobile, broadcast<Real>(1));
+    }
+    block.annihilated_energy += dt * line_energy * annihilation;
+}
+
+template <class Real>
+GrainState DislocationStrength<Real>::state(std::size_t grain) const {
+    const Block& block = blocks_[grain / lane_count<Real>];
+    const std::size_t lane = grain % lane_count<Real>;
+    GrainState state;
+    double plastic = 0;
+    double elastic = 0;
+    for (int k = 0; k < 5; ++k) {
+        plastic += std::pow(static_cast<double>(block.plastic[k][lane]), 2);
+        elastic += std::pow(static_cast<double>(block.elastic[k][lane]), 2);
+    }
+    for (int d = 0; d < slip_system_count; ++d) {
+        state.mobile_density_m2 += static_cast<double>(block.mobile[d][lane]);
+        state.immobile_density_m2 += static_cast<double>(block.immobile[d][lane]);
+    }
+    state.equivalent_plastic_strain = std::sqrt(2.0 / 3 * plastic);
+    state.elastic_shear_energy_J_m3 =
+        static_cast<double>(block.shear_modulus[lane]) * elastic;
+    state.slip_resistance_Pa = parameters_.initial_yield_stress +
+                               parameters_.hardening_coefficient *
+                                   static_cast<double>(block.shear_modulus[lane]) *
+                                   parameters_.burgers_vector *
+                                   std::sqrt(state.immobile_density_m2);
+    state.annihilated_energy_J_m3 = static_cast<double>(block.annihilated_energy[lane]);
+    state.grain_diameter_m = grain_diameter(parameters_, state.annihilated_energy_J_m3);
+    state.weakened_fraction =
+        weakened_fraction(parameters_, state.annihilated_energy_J_m3);
+    return state;
+}
+
+template class DislocationStrength<float>;
+template class DislocationStrength<double>;
+
+}  // namespace taylorcal::material

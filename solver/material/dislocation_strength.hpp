@@ -1,0 +1,73 @@
+#pragma once
+
+#include "solver/material/slip_systems.hpp"
+#include "solver/material/strength.hpp"
+
+#include <memory>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+namespace taylorcal::material {
+
+/// The dislocation model of MODEL.md: twelve fcc slip systems a grain, drag-limited slip
+/// above the threshold, kinetics of mobile and immobilized dislocations, Taylor
+/// hardening.
+///
+/// Everything is kept in the crystal frame, which rotates with the spin W: there the
+/// rotation terms of Eqs. 5-7 and 10 vanish, S = 2 G e with e = dev(u) - w, and
+/// de/dt = dev(D) - wdot. A step solves the backward-Euler equations of e together with
+/// the drag roots of the twelve systems by Newton's method.
+template <class Real>
+class DislocationStrength final : public Strength<Real> {
+  public:
+    DislocationStrength(const Parameters& parameters,
+                        const std::vector<Eigen::Quaterniond>& orientations);
+    void update(std::size_t block, const BlockInput<Real>& input,
+                BlockOutput<Real>& output) override;
+    GrainState state(std::size_t grain) const override;
+
+  private:
+    using V = Lanes<Real>;
+
+    /// One block of grains.
+    struct Block {
+        V orientation[9];                ///< crystal to lab, row-major
+        V elastic[5];                    ///< e = dev(u) - w
+        V plastic[5];                    ///< w
+        V mobile[slip_system_count];     ///< rhoD [1/m2]
+        V immobile[slip_system_count];   ///< rhoI [1/m2]
+        V drag_root[slip_system_count];  ///< z of the last step
+        V annihilated_energy;            ///< J [J/m3]
+        V shear_modulus;                 ///< G of the last step [Pa]
+    };
+
+    /// What a substep needs besides the block.
+    struct Step {
+        V rate[5];        ///< dev(D) in the crystal frame [1/s]
+        V dilatation;     ///< div v [1/s]
+        V shear_modulus;  ///< [Pa]
+        V sound_speed;    ///< transverse, ct [m/s]
+        V drag;           ///< B(T) [Pa s]
+        Real duration;    ///< [s]
+    };
+
+    /// Slip of the twelve systems during a substep, magnitudes.
+    struct Slip {
+        V speed[slip_system_count];  ///< |V| [m/s]
+        V force[slip_system_count];  ///< |X| [N/m]
+        V power;                     ///< S : wdot [W/m3]
+    };
+
+    bool is_elastic(const V (&e)[5], V two_g, V threshold) const;
+    void solve_stress(Block& block, const Step& step, Slip& slip) const;
+    void evolve_densities(Block& block, const Step& step, const Slip& slip) const;
+    V hardening(const Block& block, V shear_modulus) const;
+    int substeps(const Step& step) const;
+
+    Parameters parameters_;
+    Real schmid_[slip_system_count][5];
+    std::vector<Block> blocks_;
+};
+
+}  // namespace taylorcal::material

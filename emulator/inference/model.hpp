@@ -1,0 +1,79 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <nlohmann/json.hpp>
+
+namespace taylorcal::emulator {
+
+inline constexpr const char* model_schema = "taylorcal/emulator/1";
+
+enum class Transform { linear, log10 };
+
+/// One column of the inputs. The network sees (t(x) - shift) / scale of those that are
+/// `used`; the others were constant in the database and only have their value checked.
+struct InputInfo {
+    std::string name;
+    Transform transform = Transform::linear;
+    double lower = 0;  ///< Range of the database, untransformed.
+    double upper = 0;
+    double shift = 0;
+    double scale = 1;
+    bool used = true;
+};
+
+/// One column of the outputs: (network * scale + shift) times the product of the inputs
+/// named in `divide_by`.
+struct OutputInfo {
+    std::string name;
+    double shift = 0;
+    double scale = 1;
+    std::vector<std::string> divide_by;
+};
+
+/// Words that one further input may hold; the network sees them one-hot.
+struct Category {
+    std::string name;
+    std::vector<std::string> values;  ///< Empty when there is no such input.
+};
+
+struct Layer {
+    Eigen::MatrixXf weights;  ///< [neurons x inputs of the layer]
+    Eigen::VectorXf bias;
+};
+
+struct Member {
+    std::vector<Layer> layers;
+    std::uint64_t seed = 0;
+    int batch_size = 0;
+    double learning_rate = 0;
+    double validation_rms = 0;  ///< Of standardised outputs.
+};
+
+/// Second moment of (database - network) over held-out rows of one category value, in
+/// output units divided by `divide_by`; only of the outputs that this value has.
+struct Covariance {
+    std::vector<std::string> outputs;
+    Eigen::MatrixXd matrix;
+};
+
+/// Everything an emulator file holds.
+struct Model {
+    std::vector<InputInfo> inputs;
+    Category category;
+    std::vector<OutputInfo> outputs;
+    std::vector<Member> members;
+    std::size_t best = 0;
+    /// By category value; one with the name "all" when there is no category.
+    std::vector<std::pair<std::string, Covariance>> covariances;
+    nlohmann::json validation;  ///< The figures of merit, without the covariances.
+    nlohmann::json provenance;
+};
+
+nlohmann::json to_json(const Model& model);
+/// InputError naming `where` when the file is not a whole emulator of this schema.
+Model model_from_json(const nlohmann::json& file, const std::string& where);
+
+}  // namespace taylorcal::emulator

@@ -1,0 +1,35 @@
+"""Runs `snakemake --lint` and fails on every finding but the wish for conda or a container.
+
+The workflow calls programs built from this repository and Debian's own Python, which
+`make setup` installs, so a conda environment for each rule would describe nothing.
+"""
+
+import json
+import subprocess
+import sys
+
+WAIVED = "Specify a conda environment or container for each rule."
+
+
+def main() -> int:
+    run = subprocess.run(
+        ["/usr/bin/snakemake", "--lint", "json", "--cores", "1"], capture_output=True, text=True
+    )
+    try:
+        report = json.loads(run.stdout)
+    except json.JSONDecodeError:
+        print(run.stdout, run.stderr, sep="\n", file=sys.stderr)
+        return 1
+    findings = [
+        f"{item['for']}: {lint['title']}"
+        for part in report.values()
+        for item in part
+        for lint in item["lints"]
+        if lint["title"] != WAIVED
+    ]
+    print(*findings, sep="\n", end="\n" if findings else "")
+    return 1 if findings else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

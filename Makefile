@@ -1,0 +1,62 @@
+# Commands that people and the continuous integration use; `make help` lists them.
+SHELL := /bin/bash
+.SHELLFLAGS := -euo pipefail -c
+.DEFAULT_GOAL := help
+.DELETE_ON_ERROR:
+.PHONY: help setup configure build demo test bench clean \
+        lint lint-format lint-tidy lint-workflow lint-python
+
+# Debian's own interpreters: another python3 first on PATH would lack the packages.
+PYTHON := /usr/bin/python3
+SNAKEMAKE := /usr/bin/snakemake
+PROFILE := workflow/profiles/local
+BUILD := build
+JOBS ?= $(shell nproc)
+STUDY ?= copper_measured
+LAUNCHER := $(if $(shell command -v ccache),-D CMAKE_CXX_COMPILER_LAUNCHER=ccache)
+
+cpp_files = $(shell git ls-files '*.cpp')
+cpp_and_headers = $(shell git ls-files '*.cpp' '*.hpp')
+
+help: ## list these commands
+	@grep -E '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
+
+setup: ## install the Debian packages that are missing
+	@.ci/setup
+
+configure: setup
+	@cmake -S . -B $(BUILD) -G Ninja -D CMAKE_BUILD_TYPE=Release $(LAUNCHER)
+
+build: configure ## compile the programs into build/
+	cmake --build $(BUILD) --parallel $(JOBS)
+
+demo: build ## calibrate STUDY (copper_measured) from nothing and print the result
+	$(SNAKEMAKE) --profile $(PROFILE) --cores $(JOBS) --config study=$(STUDY)
+	@$(PYTHON) workflow/scripts/print_summary.py results/$(STUDY)
+
+test: build ## unit, verification and workflow tests
+	ctest --test-dir $(BUILD) --output-on-failure --parallel $(JOBS)
+	$(PYTHON) -m pytest tests/workflow
+
+lint: lint-format lint-python lint-workflow lint-tidy ## style and static checks; warnings are errors
+
+lint-format: setup
+	clang-format --dry-run -Werror $(cpp_and_headers)
+
+lint-tidy: configure
+	@echo clang-tidy on $(words $(cpp_files)) files
+	@printf '%s\n' $(cpp_files) \
+	  | xargs --max-procs=$(JOBS) --max-args=2 clang-tidy -p $(BUILD) --quiet 2> >(grep -vE '^[0-9]+ warnings? generated|^Suppressed|^Use -header-filter' >&2 || true)
+
+lint-workflow: setup
+	$(PYTHON) .ci/lint_workflow.py
+
+lint-python: setup
+	black --check $(shell git ls-files "*.py")
+	flake8 $(shell git ls-files '*.py')
+
+bench: build ## speed of the solver, the network and the sampler
+	@.ci/bench $(BUILD)
+
+clean: ## remove what was built; results/ stays
+	rm -rf $(BUILD)

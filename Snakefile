@@ -1,0 +1,19 @@
+# The chain from a study to its report:
+#   snakemake --cores all --config study=copper_measured
+#   snakemake --cores all results/paper_design/report.html
+configfile: "workflow/config.yaml"
+
+
+include: "workflow/rules/common.smk"
+include: "workflow/rules/design.smk"
+include: "workflow/rules/runs.smk"
+include: "workflow/rules/emulator.smk"
+include: "workflow/rules/sample.smk"
+include: "workflow/rules/compare.smk"
+include: "workflow/rules/report.smk"
+
+
+rule all:
+    default_target: True
+    input:
+        f"results/{config['study']}/report.html",

@@ -1,0 +1,62 @@
+# What the rules share: the study's settings stage by stage, and names of files.
+import sys
+from functools import cache
+from pathlib import Path
+
+from snakemake.exceptions import WorkflowError
+from snakemake.utils import min_version
+
+sys.path.insert(0, str(Path(workflow.basedir) / "workflow" / "scripts"))
+
+from input_errors import InputError
+from measurements import check_against_study, read_measurements
+from study import EXPERIMENTS, STAGE_SETTINGS, design_settings, load_study
+
+min_version("7.21")
+
+
+wildcard_constraints:
+    study="[A-Za-z0-9_]+",
+    chunk="[0-9]+",
+    stage="|".join(STAGE_SETTINGS),
+
+
+@cache
+def study_of(name):
+    """The study and its table, both checked, whichever stage asks first."""
+    try:
+        study = load_study(name)
+        table = EXPERIMENTS / name / study["measurements"]
+        check_against_study(read_measurements(table), study, table)
+    except InputError as error:
+        raise WorkflowError(str(error))
+    return study
+
+
+def stage_settings(wildcards):
+    return STAGE_SETTINGS[wildcards.stage](study_of(wildcards.study))
+
+
+def design_settings_of(wildcards):
+    return design_settings(study_of(wildcards.study))
+
+
+def measurements_of(wildcards):
+    study = study_of(wildcards.study)
+    return str(EXPERIMENTS / wildcards.study / study["measurements"])
+
+
+def rows_of_chunk(wildcards):
+    """First row and the row after the last one, as `solver batch --rows` wants them."""
+    database = study_of(wildcards.study)["database"]
+    runs, chunks, chunk = database["runs"], database["chunks"], int(wildcards.chunk)
+    return f"{chunk * runs // chunks}:{(chunk + 1) * runs // chunks}"
+
+
+def chunks_of(wildcards):
+    chunks = study_of(wildcards.study)["database"]["chunks"]
+    return expand("results/{study}/chunks/{chunk}.h5", chunk=range(chunks), study=wildcards.study)
+
+
+
+study_of(config["study"])

@@ -1,0 +1,16 @@
+rule compare:
+    input:
+        program="build/bin/calibrate",
+        posterior="results/{study}/posterior.h5",
+        emulator="results/{study}/emulator.json",
+        measurements=measurements_of,
+        settings="results/{study}/config/calibrate.json",
+    output:
+        "results/{study}/comparison.json",
+    log:
+        "results/{study}/logs/compare.log",
+    benchmark:
+        "results/{study}/benchmarks/compare.tsv"
+    shell:
+        "{input.program} compare --posterior {input.posterior} --emulator {input.emulator}"
+        " --measurements {input.measurements} --config {input.settings} --out {output} 2> {log}"

@@ -1,0 +1,15 @@
+rule train:
+    input:
+        program="build/bin/emulator",
+        database="results/{study}/database.h5",
+        settings="results/{study}/config/train.json",
+    output:
+        "results/{study}/emulator.json",
+    log:
+        "results/{study}/logs/train.log",
+    benchmark:
+        "results/{study}/benchmarks/train.tsv"
+    threads: workflow.cores
+    shell:
+        "{input.program} train {input.database} --config {input.settings} --out {output}"
+        " --threads {threads} 2> {log}"

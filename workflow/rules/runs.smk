@@ -1,0 +1,34 @@
+# A chunk takes all cores: the solver hands its runs to the threads one by one, which
+# balances better than one thread a chunk. On a cluster: `--set-threads runs=N`. A killed
+# chunk goes on from {chunk}.h5.journal.jsonl, which is not an output on purpose.
+rule runs:
+    input:
+        program="build/bin/solver",
+        design="results/{study}/design.h5",
+        settings="results/{study}/config/solver.json",
+    output:
+        "results/{study}/chunks/{chunk}.h5",
+    log:
+        "results/{study}/logs/runs_{chunk}.log",
+    benchmark:
+        "results/{study}/benchmarks/runs_{chunk}.tsv"
+    params:
+        rows=rows_of_chunk,
+    threads: workflow.cores
+    shell:
+        "{input.program} batch {input.design} --config {input.settings} --out {output}"
+        " --rows {params.rows} --threads {threads} 2> {log}"
+
+
+rule merge:
+    input:
+        program="build/bin/solver",
+        chunks=chunks_of,
+    output:
+        "results/{study}/database.h5",
+    log:
+        "results/{study}/logs/merge.log",
+    benchmark:
+        "results/{study}/benchmarks/merge.tsv"
+    shell:
+        "{input.program} merge {input.chunks} --out {output} 2> {log}"

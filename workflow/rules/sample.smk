@@ -1,0 +1,16 @@
+rule sample:
+    input:
+        program="build/bin/calibrate",
+        emulator="results/{study}/emulator.json",
+        measurements=measurements_of,
+        settings="results/{study}/config/calibrate.json",
+    output:
+        "results/{study}/posterior.h5",
+    log:
+        "results/{study}/logs/sample.log",
+    benchmark:
+        "results/{study}/benchmarks/sample.tsv"
+    threads: workflow.cores
+    shell:
+        "{input.program} sample --emulator {input.emulator} --measurements {input.measurements}"
+        " --config {input.settings} --out {output} --threads {threads} 2> {log}"

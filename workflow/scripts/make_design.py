@@ -1,0 +1,64 @@
+"""Writes design.h5: the runs of the database, spread evenly over the study's ranges."""
+
+import os
+from pathlib import Path
+
+import h5py
+import numpy as np
+from scipy.stats import qmc
+
+
+def design(settings: dict) -> dict:
+    """Columns of the design. More runs with the same seed keep the first ones."""
+    axes = [(name, *limits, False) for name, limits in settings["ranges"].items()]
+    axes += [
+        (name, values["lower"], values["upper"], values["prior"] == "log_uniform")
+        for name, values in settings["parameters"].items()
+    ]
+    shapes, runs = settings["shapes"], settings["runs"]
+    varying = [index for index, (_, lower, upper, _) in enumerate(axes) if lower < upper]
+    points = _interleaved_sobol(len(varying), runs, len(shapes), settings["seed"])
+    inputs = np.empty((runs, len(axes)))
+    for index, (_, lower, upper, logarithmic) in enumerate(axes):
+        share = points[:, varying.index(index)] if index in varying else np.zeros(runs)
+        if logarithmic:
+            inputs[:, index] = lower * (upper / lower) ** share
+        else:
+            inputs[:, index] = lower + (upper - lower) * share
+    seeds = np.random.default_rng(settings["seed"]).integers(1, 2**31, size=runs)
+    return {
+        "run_id": np.arange(runs, dtype=np.int64),
+        "seed": seeds.astype(np.int64),
+        "shape": [shapes[run % len(shapes)] for run in range(runs)],
+        "inputs": inputs,
+        "names": [axis[0] for axis in axes],
+    }
+
+
+def _interleaved_sobol(dimensions: int, runs: int, shapes: int, seed: int) -> np.ndarray:
+    """Each shape has a Sobol sequence of its own; row n belongs to shape n mod `shapes`."""
+    points = np.empty((runs, dimensions))
+    for shape in range(shapes):
+        rows = len(range(shape, runs, shapes))
+        powers = max(rows - 1, 1).bit_length()
+        engine = qmc.Sobol(dimensions, seed=np.random.default_rng([seed, shape]))
+        points[shape::shapes] = engine.random_base2(powers)[:rows]
+    return points
+
+
+def write_design(path: Path, columns: dict) -> None:
+    """Under a temporary name first, so that nobody reads half a file."""
+    partial = path.with_name(path.name + ".tmp")
+    text = h5py.string_dtype(encoding="utf-8")
+    with h5py.File(partial, "w", track_order=False) as file:
+        file.attrs["schema"] = "taylorcal/design/1"
+        file["run_id"] = columns["run_id"]
+        file["seed"] = columns["seed"]
+        file.create_dataset("shape", data=columns["shape"], dtype=text)
+        file["inputs"] = columns["inputs"]
+        file["inputs"].attrs.create("names", columns["names"], dtype=text)
+    os.replace(partial, path)
+
+
+if __name__ == "__main__":
+    write_design(Path(snakemake.output[0]), design(snakemake.params.settings))  # noqa: F821

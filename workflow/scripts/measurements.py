@@ -1,0 +1,131 @@
+"""Reads and checks a table of measured shots; messages name the file, line and column."""
+
+import csv
+import math
+from pathlib import Path
+
+from input_errors import InputError
+from schema_check import fill_defaults, findings, load_schema
+from study import DESIGN_RANGES
+
+
+def read_measurements(path: Path) -> list[dict]:
+    """The rows with numbers as floats, empty cells left out and `line` added."""
+    schema = load_schema("measurements")
+    header, records = _read_cells(path)
+    problems = [
+        f"{path}, line 1: column {key[0]} {text}"
+        for key, text in findings({name: None for name in header}, _header_schema(schema))
+    ]
+    if problems:
+        raise InputError("\n".join(problems))
+    rows, first_line = [], {}
+    for line, cells in records:
+        row, wrong = _typed(dict(zip(header, cells, strict=True)), schema)
+        wrong += [(key[0], text) for key, text in findings(row, schema)]
+        wrong += _impossible(row) if not wrong else []
+        if row.get("id") in first_line:
+            wrong.append(("id", f"= {row['id']!r} is already in line {first_line[row['id']]}."))
+        first_line.setdefault(row.get("id"), line)
+        problems += [f"{path}, line {line}: {column} {text}" for column, text in wrong]
+        rows.append({**fill_defaults(row, schema, schema), "line": line})
+    if problems:
+        raise InputError("\n".join(dict.fromkeys(problems)))
+    if not rows:
+        raise InputError(f"{path}: the table has no rows (expected one for each shot).")
+    return rows
+
+
+def check_against_study(rows: list[dict], study: dict, path: Path) -> None:
+    """The rows that are used must lie where the database will have runs."""
+    problems = []
+    for row in rows:
+        if row["use"] == "ignore":
+            continue
+        place = f"{path}, line {row['line']}: {row['id']}:"
+        if row["shape"] not in study["database"]["shapes"]:
+            problems.append(f"{place} shape {row['shape']!r} is not in database.shapes.")
+        ratio = row["initial_length_mm"] / row["initial_diameter_mm"]
+        values = {**row, "length_to_diameter": ratio}
+        for key in DESIGN_RANGES:
+            lowest, highest = study["database"][key]
+            slack = 1e-9 * highest
+            if not lowest - slack <= values[key] <= highest + slack:
+                problems.append(
+                    f"{place} {key} = {values[key]:g} is outside the database ({lowest:g} to "
+                    f"{highest:g}). Widen database.{key} in study.yaml or set `use` to ignore."
+                )
+    fitted = [row for row in rows if row["use"] == "calibrate"]
+    if not fitted:
+        problems.append(f"{path}: no row has `use` = calibrate (expected at least one).")
+    for size in study["calibration"]["fit_sizes"]:
+        if fitted and not any(size in row for row in fitted):
+            problems.append(f"{path}: no fitted row has {size!r}. Drop it from fit_sizes.")
+    if problems:
+        raise InputError("\n".join(problems))
+
+
+def _read_cells(path: Path) -> tuple[list[str], list[tuple[int, list[str]]]]:
+    try:
+        with path.open(newline="", encoding="utf-8-sig") as file:
+            reader = csv.reader(file, strict=True)
+            table = [(reader.line_num, cells) for cells in reader if any(cells)]
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read ({error.strerror}).") from error
+    except (csv.Error, UnicodeDecodeError) as error:
+        raise InputError(f"{path}: is not a comma-separated table: {error}.") from error
+    if not table:
+        raise InputError(f"{path}: the table is empty (expected a header and one row a shot).")
+    header = [name.strip() for name in table[0][1]]
+    for name in header:
+        if header.count(name) > 1:
+            raise InputError(f"{path}, line 1: column {name!r} is there twice.")
+    for line, cells in table[1:]:
+        if len(cells) != len(header):
+            raise InputError(
+                f"{path}, line {line}: {len(cells)} cells (expected {len(header)}, as in the "
+                "header). Put a text with commas in quotes."
+            )
+    return header, table[1:]
+
+
+def _header_schema(schema: dict) -> dict:
+    """The names alone: which columns may and which must be there."""
+    names = {name: {} for name in schema["properties"]}
+    keys = ("required", "dependentRequired")
+    rules = {key: schema[key] for key in keys}
+    return {"type": "object", "properties": names, "additionalProperties": False, **rules}
+
+
+def _typed(cells: dict[str, str], schema: dict) -> tuple[dict, list[tuple[str, str]]]:
+    row, wrong = {}, []
+    for column, cell in cells.items():
+        text = cell.strip()
+        if not text:
+            continue
+        if schema["properties"][column].get("type") != "number":
+            row[column] = text
+            continue
+        try:
+            row[column] = float(text)
+        except ValueError:
+            row[column] = math.nan
+        if not math.isfinite(row[column]):
+            unit = schema["properties"][column]["unit"]
+            wrong.append((column, f"= {text!r} (expected a number in {unit})."))
+    return row, wrong
+
+
+def _impossible(row: dict) -> list[tuple[str, str]]:
+    """Sizes that no impact can give."""
+    length = row["initial_length_mm"]
+    longer = [
+        (name, f"= {row[name]:g} is more than initial_length_mm = {length:g}.")
+        for name in ("final_length_mm", "undeformed_length_mm", "head_length_mm", "rear_length_mm")
+        if row.get(name, 0) > length
+    ]
+    diameter = row["initial_diameter_mm"]
+    if row["shape"] == "uniform_cylinder" and row.get("impact_diameter_mm", diameter) < diameter:
+        text = f"= {row['impact_diameter_mm']:g} is less than initial_diameter_mm = {diameter:g}."
+        longer.append(("impact_diameter_mm", text))
+    return longer

@@ -1,0 +1,43 @@
+#include "common/atomic_file.hpp"
+
+#include "common/errors.hpp"
+#include "temporary_folder.hpp"
+
+#include <fstream>
+
+#include <catch2/catch.hpp>
+
+namespace fs = std::filesystem;
+using taylorcal::InputError;
+
+TEST_CASE("a failed write leaves the old file and nothing else", "[atomic]") {
+    const taylorcal::testing::TemporaryFolder folder;
+    const fs::path path = folder / "out.txt";
+    taylorcal::write_text_atomically(path, "old");
+    const auto half_then_fail = [](const fs::path& temporary) {
+        std::ofstream(temporary) << "half";
+        throw std::runtime_error("stop");
+    };
+    CHECK_THROWS_WITH(taylorcal::write_atomically(path, half_then_fail), "stop");
+    CHECK(taylorcal::read_text(path) == "old");
+    CHECK(std::distance(fs::directory_iterator(folder.path()), {}) == 1);
+}
+
+TEST_CASE("the final name does not exist before all is written", "[atomic]") {
+    const taylorcal::testing::TemporaryFolder folder;
+    const fs::path path = folder / "out.txt";
+    taylorcal::write_atomically(path, [&](const fs::path& temporary) {
+        std::ofstream(temporary) << "whole";
+        CHECK_FALSE(fs::exists(path));
+        CHECK(temporary.parent_path() == path.parent_path());
+    });
+    CHECK(taylorcal::read_text(path) == "whole");
+}
+
+TEST_CASE("a missing folder or file is the user's to mend", "[atomic]") {
+    const taylorcal::testing::TemporaryFolder folder;
+    CHECK_THROWS_AS(taylorcal::write_text_atomically(folder / "no/out.txt", "x"),
+                    InputError);
+    CHECK_THROWS_AS(taylorcal::read_text(folder / "absent"), InputError);
+    CHECK_THROWS_AS(taylorcal::read_text(folder.path()), InputError);
+}

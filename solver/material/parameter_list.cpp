@@ -1,17 +1,11 @@
-#include "common/errors.hpp"
-#include "common/json_reader.hpp"
 #include "solver/material/parameters.hpp"
-
-#include <algorithm>
-
-#include <fmt/format.h>
 
 namespace taylorcal::material {
 namespace {
 
-const char* const table_1 = "Table 1, doi 10.3390/ma16165602";
-const char* const microstructure = "Eqs. 21-24, doi 10.3390/ma16165602";
-const char* const table_2 = "Table 2 and optimum ii, doi 10.3390/ma16165602";
+const char* const table_1 = "Rodionov 2023, Table 1";
+const char* const microstructure = "Rodionov 2023, Eqs. 21-24";
+const char* const table_2 = "Rodionov 2023, Table 2 and optimum ii";
 const char* const benchmark = "benchmark of the copper bar at 227 m/s";
 const char* const johnson_cook = "OFHC copper, Johnson and Cook 1983";
 
@@ -37,14 +31,14 @@ std::vector<ParameterInfo> make_list() {
         {"annihilation_coefficient", "kA", "1", 0, 100, false,
          "rate of annihilation, Eqs. 15-19", table_1, &P::annihilation_coefficient},
         {"drag_constant", "B(0)", "Pa s", 0, 1e-3, false, "phonon drag at 0 K",
-         "Eqs. 12-14, doi 10.3390/ma16165602", &P::drag_constant},
+         "Rodionov 2023, Eqs. 12-14", &P::drag_constant},
         {"drag_slope", "dB/dT", "Pa s/K", 0, 1e-6, false, "phonon drag by kelvin",
-         "Eqs. 12-14, doi 10.3390/ma16165602", &P::drag_slope},
+         "Rodionov 2023, Eqs. 12-14", &P::drag_slope},
         {"dislocation_energy", "epsD", "eV", 0.1, 100, false,
          "energy of a dislocation, each Burgers vector of its length",
-         "Eqs. 17 and 21, doi 10.3390/ma16165602", &P::dislocation_energy},
+         "Rodionov 2023, Eqs. 17 and 21", &P::dislocation_energy},
         {"taylor_quinney", "beta", "1", 0, 1, false, "share of plastic work that heats",
-         "Eq. 3, doi 10.3390/ma16165602", &P::taylor_quinney},
+         "Rodionov 2023, Eq. 3", &P::taylor_quinney},
 
         {"initial_grain_diameter", "d0", "m", 1e-8, 1e-2, false,
          "grain diameter before the test", microstructure, &P::initial_grain_diameter},
@@ -63,7 +57,7 @@ std::vector<ParameterInfo> make_list() {
         {"initial_density", "rho0", "kg/m3", 1000, 25000, false, "mass density", table_1,
          &P::initial_density},
         {"poisson_ratio", "mu", "1", 0, 0.49, false, "gives G from K, Eq. 26",
-         "Eq. 26, doi 10.3390/ma16165602", &P::poisson_ratio},
+         "Rodionov 2023, Eq. 26", &P::poisson_ratio},
         {"bulk_modulus", "K0", "Pa", 1e9, 1e12, false, "of the linear equation of state",
          "copper at 300 K", &P::bulk_modulus},
         {"specific_heat", "cv", "J/kg/K", 10, 5000, false, "at constant volume",

@@ -62,7 +62,9 @@ ShapeKind shape_from_name(std::string_view name) {
     const auto& names = shape_names();
     const auto found = std::find(names.begin(), names.end(), name);
     if (found != names.end()) return static_cast<ShapeKind>(found - names.begin());
-    const std::string near = nearest_word(name, names);
+    std::vector<std::string> understood = {"cylinder", "cone"};
+    understood.insert(understood.end(), names.begin(), names.end());
+    const std::string near = nearest_word(name, understood);
     throw InputError(fmt::format("shape \"{}\" is unknown{}. Use one of: {}.", name,
                                  near.empty() ? "" : " (did you mean \"" + near + "\"?)",
                                  fmt::join(names, ", ")));

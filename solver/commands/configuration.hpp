@@ -1,0 +1,27 @@
+#pragma once
+
+#include "common/json_reader.hpp"
+#include "solver/impact/impact_case.hpp"
+
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+namespace taylorcal::commands {
+
+/// What solver.json says: how impacts are computed, and the material before a run's own
+/// parameters are set.
+struct Configuration {
+    nlohmann::json document;  ///< as given, with geometry and fidelity filled in
+    impact::Numerics numerics;
+    material::Parameters material;
+};
+
+/// Reads {"geometry", "fidelity", "material": {name: value}}; all keys are optional.
+/// InputError for an unknown key, a wrong word or a value out of range.
+Configuration read_configuration(const JsonReader& reader);
+
+/// The same from a file, or all defaults when `path` is empty.
+Configuration read_configuration(const std::string& path);
+
+}  // namespace taylorcal::commands

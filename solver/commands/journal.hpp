@@ -1,0 +1,38 @@
+#pragma once
+
+#include "solver/commands/finished_run.hpp"
+
+#include <filesystem>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace taylorcal::commands {
+
+/// The runs that a batch has finished so far, one JSON line each, flushed to the disk:
+/// a killed batch goes on from it. The first line says what the batch computes.
+class Journal {
+  public:
+    /// Opens `path` or begins it. A line torn by a kill at the end is dropped. InputError
+    /// with the remedy when the journal was begun with another `header` or is damaged.
+    Journal(std::filesystem::path path, const nlohmann::json& header);
+    ~Journal();
+    Journal(const Journal&) = delete;
+    Journal& operator=(const Journal&) = delete;
+
+    /// The runs found at opening.
+    const std::vector<FinishedRun>& found() const { return found_; }
+    /// Adds a line and returns when it is on the disk.
+    void append(const FinishedRun& run);
+    /// Closes and deletes the file: its batch is complete.
+    void remove();
+
+  private:
+    void append_line(const std::string& line);
+    void read_lines(const std::string& text, const nlohmann::json& header);
+    std::filesystem::path path_;
+    std::vector<FinishedRun> found_;
+    int descriptor_ = -1;
+};
+
+}  // namespace taylorcal::commands

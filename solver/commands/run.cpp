@@ -1,0 +1,138 @@
+#include "solver/commands/run.hpp"
+
+#include "common/errors.hpp"
+#include "solver/commands/run_file.hpp"
+#include "solver/commands/run_table.hpp"
+#include "solver/commands/shot.hpp"
+#include "solver/impact/simulate.hpp"
+
+#include <cstdlib>
+#include <memory>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+namespace taylorcal::commands {
+namespace {
+
+struct RunOptions {
+    std::string configuration;
+    std::string geometry;
+    std::string fidelity;
+    std::vector<std::string> settings;
+    std::string shape = "uniform_cylinder";
+    Shot shot;
+    double until_us = 0;
+    std::string out;
+    bool json = false;
+};
+
+const char* const samples = R"(Sample runs:
+  solver run --shape truncated_cone --velocity 120
+  solver run solver.json --shape reduced_head_3mm --velocity 90 --out run.h5
+  solver run --velocity 117.6 --geometry 3d --set hardening_coefficient=2.8
+  solver run --velocity 227 --diameter-mm 6.4 --length-mm 32.4 --until-us 80 \
+    --set strength=j2 --set equation_of_state=linear --set bulk_modulus=130e9 \
+    --set poisson_ratio=0.35)";
+
+/// Puts "name=value" into the material block, a number where it reads as one.
+void apply_setting(const std::string& setting, nlohmann::json& document) {
+    const std::size_t equals = setting.find('=');
+    require(equals != std::string::npos && equals > 0 && equals + 1 < setting.size(),
+            fmt::format("--set {} (expected name=value, as in --set "
+                        "hardening_coefficient=2.8).",
+                        setting));
+    const std::string value = setting.substr(equals + 1);
+    char* end = nullptr;
+    const double number = std::strtod(value.c_str(), &end);
+    auto& entry = document["material"][setting.substr(0, equals)];
+    if (*end == '\0')
+        entry = number;
+    else
+        entry = value;
+}
+
+Configuration configuration_of(const RunOptions& options) {
+    const JsonReader file = options.configuration.empty()
+                                ? JsonReader(nlohmann::json::object(), "solver.json")
+                                : JsonReader::from_file(options.configuration);
+    read_configuration(file);  // Errors of the file are told as such.
+    nlohmann::json document = file.json();
+    if (!options.geometry.empty()) document["geometry"] = options.geometry;
+    if (!options.fidelity.empty()) document["fidelity"] = options.fidelity;
+    for (const std::string& setting : options.settings) apply_setting(setting, document);
+    return read_configuration(JsonReader(document, "command line"));
+}
+
+void run(RunOptions options) {
+    const Configuration configuration = configuration_of(options);
+    options.shot.shape = specimen::shape_from_name(options.shape);
+    impact::ImpactCase impact_case =
+        make_case(options.shot, configuration, "command line");
+    require(options.until_us >= 0 && options.until_us <= 1e4,
+            fmt::format("--until-us {} (expected 0 to 10000).", options.until_us));
+    impact_case.run_until_s = 1e-6 * options.until_us;
+
+    const impact::ImpactResult result = impact::simulate(impact_case);
+
+    const nlohmann::json description =
+        describe(options.shot, configuration, options.until_us);
+    if (!options.out.empty()) write_run_file(options.out, result, description);
+    fmt::print("{}", options.json ? run_json(result, description).dump(2) + "\n"
+                                  : run_table(result, description));
+    if (result.status == impact::Status::failed)
+        throw NumericalError("the run failed: " + result.reason);
+    if (result.status == impact::Status::not_stopped)
+        spdlog::warn("the rear has not stopped: {}", result.reason);
+}
+
+}  // namespace
+
+void add_run(CLI::App& app) {
+    auto options = std::make_shared<RunOptions>();
+    CLI::App* command = app.add_subcommand("run", "Compute one impact");
+    command->add_option("configuration", options->configuration,
+                        "solver.json: geometry, fidelity, material; all optional");
+    command
+        ->add_option("--shape", options->shape,
+                     "uniform_cylinder, reduced_head_4mm, reduced_head_3mm or "
+                     "truncated_cone")
+        ->capture_default_str();
+    command
+        ->add_option("--velocity,--velocity-m-s", options->shot.velocity_m_s,
+                     "impact velocity [m/s]")
+        ->required();
+    command
+        ->add_option("--diameter-mm", options->shot.initial_diameter_mm,
+                     "initial diameter of the rear [mm]")
+        ->capture_default_str();
+    command
+        ->add_option("--length-mm", options->shot.initial_length_mm,
+                     "initial length [mm]")
+        ->capture_default_str();
+    command
+        ->add_option("--temperature-K", options->shot.initial_temperature_K,
+                     "initial temperature [K]")
+        ->capture_default_str();
+    command->add_option("--geometry", options->geometry,
+                        "axisymmetric or 3d (over solver.json's)");
+    command->add_option("--fidelity", options->fidelity,
+                        "coarse, standard or fine (over solver.json's)");
+    command
+        ->add_option(
+            "--set", options->settings,
+            "name=value of a material parameter, see `solver parameters`; may be "
+            "repeated")
+        ->allow_extra_args(false);
+    command->add_option("--seed", options->shot.seed, "of the grain orientations")
+        ->capture_default_str();
+    command->add_option("--until-us", options->until_us,
+                        "stop at this time [us] instead of with the rear");
+    command->add_option("--out", options->out,
+                        "HDF5 file of sizes, history, outline and fields");
+    command->add_flag("--json", options->json, "print JSON instead of tables");
+    command->footer(samples);
+    command->callback([options] { run(*options); });
+}
+
+}  // namespace taylorcal::commands

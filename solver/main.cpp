@@ -1,0 +1,41 @@
+#include "common/errors.hpp"
+#include "common/provenance.hpp"
+#include "solver/commands/batch.hpp"
+#include "solver/commands/merge.hpp"
+#include "solver/commands/parameters.hpp"
+#include "solver/commands/point.hpp"
+#include "solver/commands/run.hpp"
+
+#include <CLI/CLI.hpp>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+namespace {
+
+int run(int argc, char** argv) {
+    using namespace taylorcal::commands;
+    CLI::App app{"Taylor impact of copper with a dislocation model of plasticity.",
+                 "solver"};
+    app.set_version_flag("--version", "solver " + taylorcal::version());
+    app.require_subcommand(1);
+    app.footer("\"solver COMMAND --help\" ends with sample runs.");
+    add_run(app);
+    add_batch(app);
+    add_merge(app);
+    add_point(app);
+    add_parameters(app);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : 1;
+    }
+    return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    spdlog::set_default_logger(spdlog::stderr_color_mt("solver"));
+    spdlog::set_pattern("solver: %^%l%$: %v");
+    return taylorcal::guarded_main("solver", [=] { return run(argc, argv); });
+}

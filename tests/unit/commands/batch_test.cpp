@@ -1,0 +1,134 @@
+#include "solver/commands/batch.hpp"
+
+#include "common/errors.hpp"
+#include "solver/commands/journal.hpp"
+#include "solver/commands/merge.hpp"
+#include "tests/unit/commands/small_batch.hpp"
+
+#include <catch2/catch.hpp>
+
+namespace {
+
+using namespace taylorcal;
+using namespace taylorcal::commands;
+using Catch::Matchers::Contains;
+using taylorcal::testing::quick_answer;
+using taylorcal::testing::SmallBatch;
+
+/// The journal after `allowed` runs, as a kill would leave it.
+std::string journal_of_first(const SmallBatch& batch, std::size_t allowed) {
+    const std::filesystem::path path = batch.folder / "probe.h5";
+    std::string journal;
+    std::size_t count = 0;
+    batch.run("probe.h5", 1, [&](const impact::ImpactCase& impact_case) {
+        if (count++ == allowed) journal = read_text(path.string() + ".journal.jsonl");
+        return quick_answer(impact_case);
+    });
+    return journal;
+}
+
+}  // namespace
+
+TEST_CASE("a batch gives the same bytes for any number of threads", "[batch]") {
+    const SmallBatch batch;
+    const std::string one = batch.run("one.h5", 1);
+    CHECK(one.size() > 1000);
+    CHECK(batch.run("two.h5", 2) == one);
+    CHECK(batch.run("four.h5", 4) == one);
+    CHECK_FALSE(std::filesystem::exists(batch.folder / "one.h5.journal.jsonl"));
+}
+
+TEST_CASE("a batch that was killed computes only what is missing", "[batch]") {
+    const SmallBatch batch;
+    const std::string whole = batch.run("whole.h5", 1);
+    const std::string journal = journal_of_first(batch, 4);
+    const std::string torn = GENERATE("", "{\"run_id\":5,\"outp", "{");
+    write_text_atomically(batch.folder / "again.h5.journal.jsonl", journal + torn);
+    std::atomic<int> computed = 0;
+    const std::string resumed =
+        batch.run("again.h5", 2, [&](const impact::ImpactCase& impact_case) {
+            ++computed;
+            return quick_answer(impact_case);
+        });
+    CHECK(computed == 5);
+    CHECK(resumed == whole);
+}
+
+TEST_CASE("a journal of another batch is refused with the remedy", "[batch]") {
+    SmallBatch batch;
+    const std::string journal = journal_of_first(batch, 4);
+    const auto path = batch.folder / "other.h5.journal.jsonl";
+    write_text_atomically(path, journal);
+    SECTION("another configuration") {
+        batch.configuration.document["fidelity"] = "fine";
+        CHECK_THROWS_WITH(batch.run("other.h5", 1),
+                          Contains("configuration_digest") && Contains("Delete it"));
+    }
+    SECTION("another design") {
+        batch.design.inputs(3, 0) += 1;
+        CHECK_THROWS_WITH(batch.run("other.h5", 1),
+                          Contains("design_digest") && Contains("Delete it"));
+    }
+    SECTION("a damaged line before the last") {
+        write_text_atomically(path, journal + "garbage\n{}");
+        CHECK_THROWS_WITH(batch.run("other.h5", 1), Contains("line 6: damaged"));
+    }
+    CHECK(std::filesystem::exists(path));
+}
+
+TEST_CASE("a run that fails becomes a row with its reason", "[batch]") {
+    const SmallBatch batch;
+    batch.run("rows.h5", 2, [&](const impact::ImpactCase& impact_case) {
+        if (impact_case.seed == 103) throw std::runtime_error("tangled cells");
+        impact::ImpactResult result = quick_answer(impact_case);
+        if (impact_case.seed == 105) {
+            result.status = impact::Status::not_stopped;
+            result.reason = "time limit";
+        }
+        return result;
+    });
+    const Database database = read_database(batch.folder / "rows.h5");
+    REQUIRE(database.runs.size() == 9);
+    for (std::size_t i = 0; i < database.runs.size(); ++i) {
+        const FinishedRun& run = database.runs[i];
+        CHECK(run.run_id == static_cast<std::int64_t>(i + 1));
+        const std::int64_t seed = database.design.seed[i];
+        if (seed == 103) {
+            CHECK(run.status == impact::Status::failed);
+            CHECK(run.reason == "tangled cells");
+            for (const double value : run.outputs) CHECK(std::isnan(value));
+        } else if (seed == 105) {
+            CHECK(run.status == impact::Status::not_stopped);
+            CHECK(run.reason == "time limit");
+        } else {
+            CHECK(run.status == impact::Status::stopped);
+            CHECK(run.steps == seed);
+            CHECK(run.outputs[0] ==
+                  database.design.inputs(static_cast<Eigen::Index>(i), 0) / 3);
+            CHECK(std::isnan(run.outputs[4]));
+        }
+    }
+}
+
+TEST_CASE("chunks merge to the bytes of the whole", "[merge]") {
+    const SmallBatch batch;
+    const std::string whole = batch.run("whole.h5", 1);
+    std::vector<std::string> chunks;
+    for (const std::string rows : {"4:", "0:2", "2:4"}) {
+        SmallBatch part;
+        part.design = batch.design.subset(parse_rows(rows, batch.design.rows()));
+        part.cases = make_cases(part.design, part.configuration, "design.h5");
+        const auto path =
+            batch.folder / ("chunk" + std::to_string(chunks.size()) + ".h5");
+        write_text_atomically(path, part.run("chunk.h5", 1));
+        chunks.push_back(path.string());
+    }
+    write_database(batch.folder / "merged.h5", merge(chunks));
+    CHECK(read_text(batch.folder / "merged.h5") == whole);
+
+    CHECK_THROWS_WITH(merge({chunks[0], chunks[0]}), Contains("Give each chunk"));
+    Database other = read_database(chunks[1]);
+    other.configuration["fidelity"] = "fine";
+    write_database(chunks[1], other);
+    CHECK_THROWS_WITH(merge(chunks), Contains("another configuration"));
+}

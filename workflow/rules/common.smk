@@ -59,4 +59,9 @@ def chunks_of(wildcards):
 
 
 
+def benchmarks_of(wildcards):
+    """The report tells what the stages cost; it does not depend on it."""
+    return f"results/{wildcards.study}/benchmarks"
+
+
 study_of(config["study"])

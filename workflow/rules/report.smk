@@ -15,5 +15,7 @@ rule report:
         "results/{study}/logs/report.log",
     benchmark:
         "results/{study}/benchmarks/report.tsv"
+    params:
+        benchmarks=benchmarks_of,
     script:
         "../scripts/make_report.py"

@@ -7,6 +7,8 @@ import h5py
 import numpy as np
 from scipy.stats import qmc
 
+from stage_log import logged_to
+
 
 def design(settings: dict) -> dict:
     """Columns of the design. More runs with the same seed keep the first ones."""
@@ -61,4 +63,5 @@ def write_design(path: Path, columns: dict) -> None:
 
 
 if __name__ == "__main__":
-    write_design(Path(snakemake.output[0]), design(snakemake.params.settings))  # noqa: F821
+    with logged_to(snakemake.log[0]):  # noqa: F821
+        write_design(Path(snakemake.output[0]), design(snakemake.params.settings))  # noqa: F821

@@ -1,0 +1,232 @@
+"""What a reader takes home, in sentences and short tables."""
+
+import math
+
+from markupsafe import Markup
+
+from report.results import Results
+from report.words import PARAMETER_SYMBOLS, SHAPE_WORDS, THIRD_WORDS, UNIT_WORDS
+from report.words import counted, listed, lot_words
+from report.words import number, parameter_words, percent, size_words, split_name
+
+ODD_DATUM = 3.0  # standard errors from which a single datum is listed
+LACK_OF_FIT = 1.5  # whitened root mean square from which a group is named as failing
+FEWEST_DATA = 3  # of a group that is named
+
+
+def parameter_rows(results: Results) -> list[dict]:
+    """Best value, median and interval, and where the interval lies in the prior's range."""
+    rows = []
+    for entry in results.comparison["parameters"]:
+        base, _ = split_name(entry["name"])
+        prior = results.settings["parameters"].get(base)
+        row = {
+            "words": parameter_words(entry["name"]),
+            "symbol": Markup(PARAMETER_SYMBOLS.get(base, "")),
+            "unit": _unit(prior),
+            "best": number(entry["maximum"]),
+            "median": number(entry["median"]),
+            "interval": _interval(entry),
+            "bar": None,
+        }
+        if prior:
+            row["prior"] = Markup(f"{number(prior['lower'], 2)} to {number(prior['upper'], 2)}")
+            keys = ("lower95", "median", "upper95")
+            row["bar"] = [100 * _position(entry[key], prior) for key in keys]
+        rows.append(row)
+    return rows
+
+
+def _unit(prior: dict | None) -> str:
+    if prior is None:
+        return "relative"
+    return UNIT_WORDS.get(prior["unit"], prior["unit"])
+
+
+def _interval(entry: dict) -> Markup:
+    return Markup(f"{number(entry['lower95'])} to {number(entry['upper95'])}")
+
+
+def _position(value: float, prior: dict) -> float:
+    scale = math.log10 if prior["prior"] == "log_uniform" else float
+    lower, upper = scale(prior["lower"]), scale(prior["upper"])
+    return min(max((scale(value) - lower) / (upper - lower), 0), 1)
+
+
+def headline(results: Results) -> list[Markup]:
+    """The result in a few sentences: parameters, misfit, where it fails."""
+    sentences = [_parameter_sentence(results)]
+    sentences += [_misfit_sentence(results, use) for use in ("calibrate", "validate")]
+    sentences.append(_failure_sentence(results))
+    return [sentence for sentence in sentences if sentence]
+
+
+def _parameter_sentence(results: Results) -> Markup:
+    shared, by_base = [], {}
+    for entry in results.comparison["parameters"]:
+        base, lot = split_name(entry["name"])
+        if base not in results.settings["parameters"]:
+            continue
+        if lot:
+            by_base.setdefault(base, []).append((entry["median"], lot))
+            continue
+        unit = _unit(results.settings["parameters"][base])
+        value = f"<b>{number(entry['median'])}</b> {unit}".rstrip()
+        shared.append(f"{parameter_words(base)} {value} (95 % interval {_interval(entry)})")
+    text = f"The data give the {listed(shared)}." if shared else ""
+    for base, values in by_base.items():
+        (low, low_lot), (high, high_lot) = min(values), max(values)
+        unit = _unit(results.settings["parameters"][base])
+        text += (
+            f" The {parameter_words(base)} differs between lots, from <b>{number(low, 2)}</b> "
+            f"{unit} ({lot_words(low_lot)}) to <b>{number(high, 2)}</b> {unit} "
+            f"({lot_words(high_lot)})."
+        )
+    return Markup(text.strip())
+
+
+def _misfit_sentence(results: Results, use: str) -> Markup:
+    misfit = results.comparison["misfit"].get(use)
+    if not misfit or not misfit["n"]:
+        return Markup("")
+    shots = sum(1 for shot in results.comparison["shots"] if shot["use"] == use)
+    which = "fitted" if use == "calibrate" else "held back from the fit"
+    verdict = (
+        "about what the stated errors explain"
+        if misfit["whitened_rms"] < 1.2
+        else "more than the stated errors explain"
+    )
+    return Markup(
+        f"On the {counted(misfit['n'], 'datum').replace('datums', 'data')} of "
+        f"{counted(shots, 'shot')} {which} the model is off by "
+        f"<b>{percent(misfit['rms_relative'])}</b> (root mean square), or "
+        f"{misfit['whitened_rms']:.2f} standard errors: {verdict}."
+    )
+
+
+def failing_groups(results: Results, most: int = 5) -> list[dict]:
+    """The groups that deviate most, judged in standard errors."""
+    found = [
+        group
+        for group in results.comparison["groups"]
+        if group["by"] != "use"
+        and group["n"] >= FEWEST_DATA
+        and group["whitened_rms"] >= LACK_OF_FIT
+    ]
+    found.sort(key=lambda group: -group["whitened_rms"])
+    return [{**group, "label": group_label(group)} for group in found[:most]]
+
+
+def group_label(group: dict) -> str:
+    key = group["key"]
+    parts = key.split(" x ") if isinstance(key, str) else key
+    words = []
+    for part in parts:
+        if part in SHAPE_WORDS:
+            words.append(SHAPE_WORDS[part])
+        elif part in THIRD_WORDS:
+            words.append(THIRD_WORDS[part])
+        else:
+            words.append(size_words(part) if part.endswith("_mm") else f"lot {lot_words(part)}")
+    return ", ".join(words)
+
+
+def _failure_sentence(results: Results) -> Markup:
+    groups = failing_groups(results, 3)
+    if not groups:
+        return Markup(
+            "No lot, size, shape or range of velocities deviates by more than "
+            f"{LACK_OF_FIT} standard errors."
+        )
+    named = [f"{group['label']} ({group['whitened_rms']:.1f} standard errors)" for group in groups]
+    return Markup(f"It fails most in {listed(named)}.")
+
+
+def odd_data(results: Results) -> list[dict]:
+    """Single data far from the best model: a bad datum or a missing effect."""
+    found = [
+        {
+            "id": shot["id"],
+            "lot": lot_words(shot["lot"]),
+            "use": {"calibrate": "fitted", "validate": "held back"}[shot["use"]],
+            "velocity": number(shot["velocity_m_s"]),
+            "size": size_words(cell["size"]),
+            "measured": f"{cell['measured']:.2f}",
+            "predicted": f"{cell['predicted']:.2f}",
+            "whitened": cell["whitened"],
+        }
+        for shot in results.comparison["shots"]
+        for cell in shot["sizes"]
+        if abs(cell["whitened"]) > ODD_DATUM
+    ]
+    return sorted(found, key=lambda datum: -abs(datum["whitened"]))
+
+
+def lot_rows(results: Results) -> list[dict]:
+    """The table of what was measured, a line for each lot."""
+    rows = []
+    for lot in results.lots:
+        mine = [row for row in results.rows if row["lot"] == lot]
+        uses = [row["use"] for row in mine]
+        sizes = [key for key in mine[0] if key.endswith("_mm") and not key.startswith("initial")]
+        sizes = list(dict.fromkeys(k for row in mine for k in (*sizes, *row) if _is_size(k)))
+        rows.append(
+            {
+                "lot": lot_words(lot),
+                "metal": listed(sorted({row["material"] for row in mine} - {""})),
+                "shapes": listed(list(dict.fromkeys(SHAPE_WORDS[r["shape"]] for r in mine))),
+                "fitted": uses.count("calibrate"),
+                "held": uses.count("validate"),
+                "ignored": uses.count("ignore"),
+                "velocity": _span([row["velocity_m_s"] for row in mine]),
+                "diameter": _span([row["initial_diameter_mm"] for row in mine]),
+                "ratio": _span(
+                    [row["initial_length_mm"] / row["initial_diameter_mm"] for row in mine]
+                ),
+                "sizes": ", ".join(size_words(s) for s in sizes if any(s in row for row in mine)),
+            }
+        )
+    return rows
+
+
+def _is_size(key: str) -> bool:
+    return key.endswith("_mm") and not key.startswith("initial")
+
+
+def _span(values: list[float]) -> str:
+    low, high = f"{min(values):.3g}", f"{max(values):.3g}"
+    return low if low == high else f"{low}–{high}"
+
+
+def sources(results: Results) -> list[tuple[str, int]]:
+    found: dict[str, int] = {}
+    for row in results.rows:
+        found[row["source"]] = found.get(row["source"], 0) + 1
+    return list(found.items())
+
+
+def maxima_rows(results: Results) -> list[tuple[str, list]]:
+    """A line for each parameter, a column for each maximum."""
+    posterior = results.posterior
+    drops = posterior.maxima_log_density.max() - posterior.maxima_log_density
+    rows = [
+        ("share of the posterior", [percent(share, 0) for share in posterior.maxima_share]),
+        ("ln density below the highest", [f"{drop:.1f}" for drop in drops]),
+    ]
+    for name, values in zip(posterior.names, posterior.maxima.T, strict=True):
+        rows.append((parameter_words(name), [number(value) for value in values]))
+    return rows
+
+
+def network_rows(results: Results) -> list[dict]:
+    return [
+        {
+            "size": size_words(entry["output"]),
+            "shape": SHAPE_WORDS.get(entry["shape"], entry["shape"] or "all shapes"),
+            "rms": percent(entry["rms_relative"], 2),
+            "largest": percent(entry["largest_relative"], 1),
+            "rms_mm": number(entry["rms"], 2),
+            "n": entry["n"],
+        }
+        for entry in results.emulator["validation"]["by_output"]
+    ]

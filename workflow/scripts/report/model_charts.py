@@ -1,0 +1,334 @@
+"""What was measured, and the model against it."""
+
+from statistics import NormalDist, mean
+
+from report.chart import PALETTE, Band, Cells, Chart, Intervals, Line, Panel, Points
+from report.chart import ordered_colour
+from report.results import Results
+from report.words import SHAPE_WORDS, THIRD_WORDS, lot_words, sentence_case
+from report.words import signed_percent, size_words
+
+USE_SYMBOL = {"calibrate": {}, "validate": {"hollow": True}, "ignore": {"symbol": "cross"}}
+USE_WORDS = {"calibrate": "fitted", "validate": "held back", "ignore": "left out"}
+
+
+def table_chart(results: Results) -> Chart:
+    """Which velocities each lot (or shape) covers, and what becomes of each shot."""
+    key, words = _grouping(results)
+    names = list(dict.fromkeys(row[key] for row in results.rows))
+    layers = []
+    for use, style in USE_SYMBOL.items():
+        rows = [row for row in results.rows if row["use"] == use]
+        if rows:
+            layers.append(
+                Points(
+                    [row["velocity_m_s"] for row in rows],
+                    [names.index(row[key]) for row in rows],
+                    "ink" if use == "ignore" else PALETTE[0],
+                    labels=[_shot_label(row) for row in rows],
+                    legend=USE_WORDS[use],
+                    **style,
+                )
+            )
+    panel = Panel(layers, x_label="impact velocity, m/s", y_ticks=[words(name) for name in names])
+    return Chart(
+        "measured_shots",
+        "Velocities of the shots",
+        "Each mark is a shot: filled ones are fitted, hollow ones held back to judge the fit, "
+        "crosses left out.",
+        [panel],
+        columns=1,
+        row_height=130 + 26 * len(names),
+        legend=True,
+    )
+
+
+def _grouping(results: Results):
+    if len(results.lots) > 1:
+        return "lot", lot_words
+    return "shape", SHAPE_WORDS.get
+
+
+def _shot_label(row: dict) -> str:
+    ratio = row["initial_length_mm"] / row["initial_diameter_mm"]
+    return (
+        f"<b>{row['id']}</b><br>{row['velocity_m_s']:g} m/s, {row['initial_diameter_mm']:g} mm × "
+        f"{row['initial_length_mm']:.4g} mm (L/D {ratio:.3g})<br>{row['source']}"
+    )
+
+
+def _reference(size: str, row: dict) -> float:
+    return row["initial_diameter_mm"] if "diameter" in size else row["initial_length_mm"]
+
+
+def _ratio(row: dict) -> float:
+    return round(row["initial_length_mm"] / row["initial_diameter_mm"], 2)
+
+
+def velocity_charts(results: Results) -> list[Chart]:
+    """For each size, a panel for each lot and shape; sizes over the initial size."""
+    rows = {row["id"]: row for row in results.rows}
+    sizes = list(
+        dict.fromkeys(
+            cell["size"] for shot in results.comparison["shots"] for cell in shot["sizes"]
+        )
+    )
+    ratios = sorted({_ratio(row) for row in results.used_rows})
+    return [_velocity_chart(results, size, rows, ratios) for size in sizes]
+
+
+def _velocity_chart(results: Results, size: str, rows: dict, ratios: list[float]) -> Chart:
+    panels = {}
+    for shot in results.comparison["shots"]:
+        for cell in shot["sizes"]:
+            if cell["size"] == size:
+                panels.setdefault((shot["lot"], shot["shape"]), []).append((shot, cell))
+    over = "D₀" if "diameter" in size else "L₀"
+    shown = []
+    for (lot, shape), entries in panels.items():
+        layers = _curve_layers(results, size, lot, shape, ratios)
+        with_curve = bool(layers)
+        for ratio in ratios:
+            mine = [entry for entry in entries if _ratio(rows[entry[0]["id"]]) == ratio]
+            layers += _shot_layers(mine, rows, size, ratio, ratios, with_curve)
+        title = lot_words(lot) if len(results.lots) > 1 else SHAPE_WORDS[shape]
+        if len(results.lots) > 1 and len({key[1] for key in panels if key[0] == lot}) > 1:
+            title += f", {SHAPE_WORDS[shape]}"
+        shown.append(Panel(layers, title, "velocity, m/s", f"{size_words(size)} / {over}"))
+    return Chart(
+        f"against_velocity_{size}",
+        sentence_case(size_words(size)),
+        "",
+        shown,
+        columns=min(3, max(len(shown), 2)),
+        row_height=270,
+        legend=len(ratios) > 1,
+    )
+
+
+def _curve_layers(results: Results, size: str, lot: str, shape: str, ratios: list) -> list:
+    layers = []
+    curves = [
+        curve
+        for curve in results.comparison["curves"]
+        if (curve["size"], curve["lot"], curve["shape"]) == (size, lot, shape)
+    ]
+    for curve in curves:
+        reference = _reference(size, curve)
+        position = _nearest(ratios, curve["initial_length_mm"] / curve["initial_diameter_mm"])
+        colour = ordered_colour(position, len(ratios))
+        scaled = {
+            key: [value / reference for value in curve[key]]
+            for key in ("lower", "upper", "predicted")
+        }
+        x = curve["velocity_m_s"]
+        layers.append(Band(x, scaled["lower"], scaled["upper"], colour, 0.22 / len(curves) ** 0.5))
+        layers.append(Line(x, scaled["predicted"], colour))
+    return layers
+
+
+def _nearest(values: list[float], wanted: float) -> int:
+    return min(range(len(values)), key=lambda index: abs(values[index] - wanted))
+
+
+def _shot_layers(entries, rows, size, ratio, ratios, with_curve) -> list:
+    layers = []
+    colour = ordered_colour(ratios.index(ratio), len(ratios))
+    for use in ("calibrate", "validate"):
+        mine = [(shot, cell) for shot, cell in entries if shot["use"] == use]
+        if not mine:
+            continue
+        reference = [_reference(size, rows[shot["id"]]) for shot, _ in mine]
+        column = {
+            key: [cell[key] / scale for (_, cell), scale in zip(mine, reference)]
+            for key in ("measured", "sd", "predictive_lower", "predictive_upper")
+        }
+        x = [shot["velocity_m_s"] for shot, _ in mine]
+        if not with_curve:
+            ends = (column["predictive_lower"], column["predictive_upper"])
+            layers.append(Intervals(x, *ends, colour))
+        layers.append(
+            Points(
+                x,
+                column["measured"],
+                colour,
+                y_error=column["sd"],
+                labels=[_cell_label(shot, cell) for shot, cell in mine],
+                legend=f"L/D {ratio:g}" if use == "calibrate" else "",
+                legend_rank=ratios.index(ratio),
+                size=6.5,
+                **USE_SYMBOL[use],
+            )
+        )
+    return layers
+
+
+def _cell_label(shot: dict, cell: dict) -> str:
+    return (
+        f"<b>{shot['id']}</b> ({USE_WORDS[shot['use']]})<br>{shot['velocity_m_s']:g} m/s, "
+        f"{size_words(cell['size'])}<br>measured {cell['measured']:.4g} ± {cell['sd']:.2g} mm<br>"
+        f"model {cell['predicted']:.4g} mm "
+        f"({cell['predictive_lower']:.4g} to {cell['predictive_upper']:.4g})"
+    )
+
+
+def parity_chart(results: Results) -> Chart:
+    key, words = _grouping(results)
+    names = list(dict.fromkeys(row[key] for row in results.used_rows))
+    colours = {name: PALETTE[index % len(PALETTE)] for index, name in enumerate(names)}
+    sizes: dict[str, list] = {}
+    for shot in results.comparison["shots"]:
+        for cell in shot["sizes"]:
+            sizes.setdefault(cell["size"], []).append((shot, cell))
+    panels = []
+    for size, entries in sizes.items():
+        values = [value for _, cell in entries for value in (cell["measured"], cell["predicted"])]
+        margin = 0.05 * (max(values) - min(values))
+        ends = [min(values) - margin, max(values) + margin]
+        layers = [Line(ends, ends, "faint", width=1)]
+        for name in names:
+            for use, style in list(USE_SYMBOL.items())[:2]:
+                mine = [(s, c) for s, c in entries if s[key] == name and s["use"] == use]
+                if mine:
+                    layers.append(
+                        Points(
+                            [cell["predicted"] for _, cell in mine],
+                            [cell["measured"] for _, cell in mine],
+                            colours[name],
+                            y_error=[cell["sd"] for _, cell in mine],
+                            labels=[_cell_label(*entry) for entry in mine],
+                            legend=words(name),
+                            size=6,
+                            **style,
+                        )
+                    )
+        panels.append(
+            Panel(layers, size_words(size), "model, mm", "measured, mm", x_range=tuple(ends))
+        )
+    return Chart(
+        "measured_against_model",
+        "Measured against model",
+        "The line is agreement. Filled marks are fitted, hollow ones held back; error bars are "
+        "one standard error of the measurement.",
+        panels,
+        columns=min(3, len(panels)),
+        row_height=290,
+        legend=True,
+    )
+
+
+def residual_chart(results: Results) -> Chart:
+    """Shape x size against the third of the velocities: mean deviation and its weight."""
+    groups = {
+        _split_key(group["key"]): group
+        for group in results.comparison["groups"]
+        if "shape" in group["by"] and "velocity" in group["by"] and "size" in group["by"]
+    }
+    thirds = [third for third in THIRD_WORDS if any(third in key for key in groups)]
+    pairs = list(dict.fromkeys((key[0], key[1]) for key in groups))
+    several = len({shape for shape, _ in pairs}) > 1
+    names = [
+        f"{SHAPE_WORDS[shape]}, {size_words(size)}" if several else size_words(size)
+        for shape, size in pairs
+    ]
+    cells = [[groups.get((shape, size, third)) for third in thirds] for shape, size in pairs]
+    return _cell_chart(
+        "residuals",
+        "By size and velocity",
+        "Mean deviation of the measurement from the model for each size and third of the "
+        "velocities. Orange: measured larger than the model; blue: smaller. The second line gives "
+        "the deviation in standard errors (whitened root mean square; 1 is what the errors "
+        "explain) and the number of data.",
+        names,
+        [THIRD_WORDS[third] for third in thirds],
+        cells,
+    )
+
+
+def _split_key(key) -> tuple[str, str, str]:
+    """(shape, size, third) of a group's key, in whatever order it is written."""
+    parts = [part.strip() for part in (key.split(" x ") if isinstance(key, str) else key)]
+    shape = next(part for part in parts if part in SHAPE_WORDS)
+    size = next(part for part in parts if part.endswith("_mm"))
+    third = next(part for part in parts if part in THIRD_WORDS)
+    return shape, size, third
+
+
+def lot_residual_chart(results: Results) -> Chart:
+    """The same by lot, which shows a lot that one parameter cannot satisfy."""
+    cells: dict[tuple, list] = {}
+    for shot in results.comparison["shots"]:
+        for cell in shot["sizes"]:
+            cells.setdefault((shot["lot"], cell["size"]), []).append(cell)
+    lots = list(dict.fromkeys(lot for lot, _ in cells))
+    sizes = list(dict.fromkeys(size for _, size in cells))
+
+    def summary(entries):
+        if not entries:
+            return None
+        return {
+            "n": len(entries),
+            "mean_relative": mean(c["measured"] / c["predicted"] - 1 for c in entries),
+            "whitened_rms": mean(c["whitened"] ** 2 for c in entries) ** 0.5,
+        }
+
+    return _cell_chart(
+        "residuals_by_lot",
+        "By lot",
+        "",
+        [lot_words(lot) for lot in lots],
+        [size_words(size) for size in sizes],
+        [[summary(cells.get((lot, size))) for size in sizes] for lot in lots],
+    )
+
+
+def _cell_chart(name, title, caption, rows, columns, cells) -> Chart:
+    values = [[cell and cell["mean_relative"] for cell in row] for row in cells]
+    texts = [
+        [
+            (
+                f"<b>{signed_percent(cell['mean_relative'])}</b><br>"
+                f"{cell['whitened_rms']:.1f} s.e., n {cell['n']}"
+                if cell
+                else ""
+            )
+            for cell in row
+        ]
+        for row in cells
+    ]
+    known = [abs(value) for row in values for value in row if value is not None]
+    panel = Panel([Cells(rows, columns, values, texts, limit=max(known, default=0) or 1)])
+    height = 40 + 46 * len(rows)
+    return Chart(name, title, caption, [panel], columns=1, row_height=height)
+
+
+def normal_chart(results: Results) -> Chart:
+    """Whitened deviations against what a normal distribution would give."""
+    panels = []
+    for use in ("calibrate", "validate"):
+        found = sorted(
+            (cell["whitened"], f"<b>{shot['id']}</b><br>{size_words(cell['size'])}")
+            for shot in results.comparison["shots"]
+            for cell in shot["sizes"]
+            if shot["use"] == use
+        )
+        if len(found) < 3:
+            continue
+        count = len(found)
+        expected = [NormalDist().inv_cdf((index + 0.5) / count) for index in range(count)]
+        ends = [expected[0], expected[-1]]
+        points = Points(expected, [w for w, _ in found], labels=[label for _, label in found])
+        points.size = 5
+        points.hollow = use == "validate"
+        x_label = "expected of a normal distribution"
+        layers = [Line(ends, ends, "faint", width=1), points]
+        panels.append(Panel(layers, USE_WORDS[use], x_label, "deviation, standard errors"))
+    return Chart(
+        "normal_plot",
+        "Are the deviations as large as their errors say?",
+        "Points on the line: yes. A steeper run means that the stated errors are too small or "
+        "that the model misses something; single points off the line are odd data.",
+        panels,
+        columns=2,
+        row_height=280,
+    )

@@ -75,10 +75,11 @@ void set_model(Parameters& parameters, std::string_view name, std::string_view w
 void set_parameter(Parameters& parameters, std::string_view name, double value) {
     const ParameterInfo& info = find_parameter(name);
     require(value >= info.lowest && value <= info.highest,
-            fmt::format("{} = {}{} is out of its range (expected {} to {}). \"solver "
-                        "parameters\" lists the ranges.",
-                        name, value, info.unit == "1" ? "" : " " + info.unit, info.lowest,
-                        info.highest));
+            fmt::format(
+                "{} = {:.10g}{} is out of its range (expected {:g} to {:g}). \"solver "
+                "parameters\" lists the ranges.",
+                name, value, info.unit == "1" ? "" : " " + info.unit, info.lowest,
+                info.highest));
     parameters.*info.member = value;
 }
 

@@ -1,0 +1,94 @@
+#include "solver/axisymmetric/body.hpp"
+
+#include "solver/axisymmetric/orientations.hpp"
+
+#include <cmath>
+
+namespace taylorcal::axisymmetric {
+namespace {
+
+/// int rho N_a dV of a cell's corners, by 2 x 2 Gauss points (exact). Units of rho m3.
+std::array<double, 4> corner_volumes(const std::array<double, 4>& r,
+                                     const std::array<double, 4>& z) {
+    constexpr std::array<double, 4> xi = {-1, 1, 1, -1};
+    constexpr std::array<double, 4> eta = {-1, -1, 1, 1};
+    const double gauss = 1 / std::sqrt(3.0);
+    std::array<double, 4> volumes{};
+    for (std::size_t point = 0; point < 4; ++point) {
+        const double x = gauss * xi[point];
+        const double y = gauss * eta[point];
+        std::array<double, 4> shape{};
+        double radius = 0;
+        double r_xi = 0, r_eta = 0, z_xi = 0, z_eta = 0;
+        for (std::size_t a = 0; a < 4; ++a) {
+            shape[a] = (1 + xi[a] * x) * (1 + eta[a] * y) / 4;
+            radius += shape[a] * r[a];
+            r_xi += xi[a] * (1 + eta[a] * y) / 4 * r[a];
+            r_eta += eta[a] * (1 + xi[a] * x) / 4 * r[a];
+            z_xi += xi[a] * (1 + eta[a] * y) / 4 * z[a];
+            z_eta += eta[a] * (1 + xi[a] * x) / 4 * z[a];
+        }
+        const double ring = 2 * std::numbers::pi * radius * (r_xi * z_eta - r_eta * z_xi);
+        for (std::size_t a = 0; a < 4; ++a) volumes[a] += shape[a] * ring;
+    }
+    return volumes;
+}
+
+}  // namespace
+
+Body::Body(const impact::ImpactCase& impact_case)
+    : mesh(make_mesh(impact_case.shape, impact_case.numerics.elements_across_radius)),
+      radius(mesh.node_radius),
+      height(mesh.node_height),
+      radial_velocity(radius.size(), 0.0),
+      axial_velocity(radius.size(), -impact_case.velocity_m_s),
+      radial_force(radius.size(), 0.0),
+      axial_force(radius.size(), 0.0),
+      node_mass(radius.size(), 0.0),
+      equation_of_state(material::make_equation_of_state(impact_case.material)),
+      parameters(impact_case.material),
+      numerics(impact_case.numerics) {
+    const std::size_t count = mesh.cells.size();
+    const double initial_energy =
+        equation_of_state->energy_at_temperature(impact_case.initial_temperature_K);
+    const material::ThermoState initial =
+        equation_of_state->at(parameters.initial_density, initial_energy);
+    volume.resize(count);
+    cell_mass.resize(count);
+    energy.assign(count, initial_energy);
+    thermo.assign(count, initial);
+    deviator.assign(count, {});
+    viscous_pressure.assign(count, 0.0);
+    plastic_rate.assign(count, 0.0);
+    hourglass_stress.assign(count, {});
+    for (std::size_t c = 0; c < count; ++c) {
+        std::array<double, 4> r{}, z{};
+        for (std::size_t a = 0; a < 4; ++a) {
+            r[a] = radius[mesh.cells[c][a]];
+            z[a] = height[mesh.cells[c][a]];
+        }
+        volume[c] = ring_of(r, z).volume;
+        cell_mass[c] = volume[c] * parameters.initial_density;
+        const std::array<double, 4> corners = corner_volumes(r, z);
+        for (std::size_t a = 0; a < 4; ++a) {
+            node_mass[mesh.cells[c][a]] += corners[a] * parameters.initial_density;
+        }
+    }
+    const auto grains = static_cast<std::size_t>(numerics.grains_per_point);
+    strength = material::make_strength<float>(
+        parameters, grain_orientations(count, grains, impact_case.seed));
+    balance.initial_kinetic = kinetic_energy(*this);
+}
+
+double kinetic_energy(const Body& body) {
+    double sum = 0;
+    for (std::size_t n = 0; n < body.nodes(); ++n) {
+        sum += body.node_mass[n] *
+               (body.radial_velocity[n] * body.radial_velocity[n] +
+                body.axial_velocity[n] * body.axial_velocity[n]) /
+               2;
+    }
+    return sum;
+}
+
+}  // namespace taylorcal::axisymmetric

@@ -1,0 +1,61 @@
+#pragma once
+
+#include "solver/axisymmetric/mesh.hpp"
+#include "solver/axisymmetric/quadrilateral.hpp"
+#include "solver/impact/impact_case.hpp"
+#include "solver/material/equation_of_state.hpp"
+#include "solver/material/strength.hpp"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace taylorcal::axisymmetric {
+
+/// Where the specimen's energy has gone [J].
+struct EnergyBalance {
+    double initial_kinetic = 0;
+    double internal = 0;      ///< hydrostatic, elastic shear and stored plastic work
+    double plastic_work = 0;  ///< part of internal
+    double viscous = 0;       ///< artificial viscosity; part of internal
+    double hourglass = 0;     ///< hourglass control
+    double contact = 0;       ///< nodes stopped by the anvil or by each other
+};
+
+/// The state of a specimen in (r, z): nodes carry mass and motion, cells one stress point
+/// each with several grains that share its strain. Structure of arrays, SI units.
+struct Body {
+    Body(const impact::ImpactCase& impact_case);
+
+    std::size_t nodes() const { return radius.size(); }
+    std::size_t cells() const { return mesh.cells.size(); }
+
+    Mesh mesh;
+    std::vector<double> radius, height;                   ///< of the nodes [m]
+    std::vector<double> radial_velocity, axial_velocity;  ///< at mid step [m/s]
+    std::vector<double> radial_force, axial_force;        ///< [N]
+    std::vector<double> node_mass;                        ///< [kg]
+
+    std::vector<double> cell_mass;  ///< [kg]
+    std::vector<double> volume;     ///< [m3]
+    std::vector<double> energy;     ///< E, hydrostatic specific energy [J/kg]
+    std::vector<material::ThermoState> thermo;
+    std::vector<std::array<double, 4>> deviator;          ///< S: rr, tt, zz, rz [Pa]
+    std::vector<double> viscous_pressure;                 ///< q [Pa]
+    std::vector<double> plastic_rate;                     ///< equivalent [1/s]
+    std::vector<std::array<double, 2>> hourglass_stress;  ///< of the r and z modes [Pa]
+
+    std::unique_ptr<material::EquationOfState> equation_of_state;
+    std::unique_ptr<material::Strength<float>> strength;
+    material::Parameters parameters;
+    impact::Numerics numerics;
+    EnergyBalance balance;
+    double time = 0;
+    double time_step = 0;
+    std::int64_t steps = 0;
+};
+
+double kinetic_energy(const Body& body);
+
+}  // namespace taylorcal::axisymmetric

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "solver/specimen/shape.hpp"
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace taylorcal::axisymmetric {
+
+/// The meridian section of a specimen cut into quadrilateral cells; lengths in m. Corners
+/// of a cell run counterclockwise in the (r, z) half plane, the first at lower r and z.
+struct Mesh {
+    std::vector<double> node_radius;
+    std::vector<double> node_height;
+    std::vector<std::array<std::size_t, 4>> cells;
+
+    std::vector<std::size_t> foot;        ///< nodes of the impact face, from the axis out
+    std::vector<std::size_t> rear;        ///< nodes of the rear face, from the axis out
+    std::vector<std::size_t> transition;  ///< nodes of the head-rear section, the head's
+    std::vector<std::size_t> outline;     ///< free surface, from foot rim to rear rim
+};
+
+/// Cuts the profile into about `across` columns over the rear radius and rows to match. A
+/// reduced head keeps the column width; a cone keeps the number of columns. Cells of
+/// heads and cones start up to twice as tall as wide, since the impact flattens them.
+Mesh make_mesh(const specimen::Shape& shape, int across);
+
+}  // namespace taylorcal::axisymmetric

@@ -1,0 +1,84 @@
+#include "solver/axisymmetric/profile.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace taylorcal::axisymmetric {
+namespace {
+
+/// Mean of a node quantity over a section, weighted by area: nodes run from the axis out.
+template <class Quantity>
+double section_mean(const Body& body, const std::vector<std::size_t>& section,
+                    const Quantity& quantity) {
+    double sum = 0;
+    double area = 0;
+    for (std::size_t i = 0; i + 1 < section.size(); ++i) {
+        const double inner = body.radius[section[i]];
+        const double outer = body.radius[section[i + 1]];
+        const double ring = outer * outer - inner * inner;
+        sum += ring * (quantity(section[i]) + quantity(section[i + 1])) / 2;
+        area += ring;
+    }
+    return sum / area;
+}
+
+}  // namespace
+
+observe::DeformedProfile deformed_profile(const Body& body,
+                                          const specimen::Shape& shape) {
+    observe::DeformedProfile profile;
+    const auto height_of = [&](std::size_t n) { return body.height[n]; };
+    const double table = *std::min_element(body.height.begin(), body.height.end());
+    for (const std::size_t n : body.mesh.outline) {
+        profile.outline_radius.push_back(body.radius[n]);
+        profile.outline_height.push_back(body.height[n] - table);
+    }
+    profile.total_length = section_mean(body, body.mesh.rear, height_of) - table;
+    profile.transition_height =
+        section_mean(body, body.mesh.transition, height_of) - table;
+    profile.transition_radius = body.radius[body.mesh.transition.back()];
+    profile.initial_length = shape.length();
+    profile.initial_rear_radius = shape.rear_radius();
+    return profile;
+}
+
+impact::Fields fields(const Body& body) {
+    impact::Fields out;
+    constexpr double to_mm = 1e3;
+    const auto grains = static_cast<std::size_t>(body.numerics.grains_per_point);
+    for (std::size_t c = 0; c < body.cells(); ++c) {
+        double r = 0, z = 0, r0 = 0, z0 = 0;
+        for (const std::size_t n : body.mesh.cells[c]) {
+            r += body.radius[n] / 4;
+            z += body.height[n] / 4;
+            r0 += body.mesh.node_radius[n] / 4;
+            z0 += body.mesh.node_height[n] / 4;
+        }
+        out.x_mm.push_back(r * to_mm);
+        out.y_mm.push_back(0);
+        out.z_mm.push_back(z * to_mm);
+        out.initial_x_mm.push_back(r0 * to_mm);
+        out.initial_y_mm.push_back(0);
+        out.initial_z_mm.push_back(z0 * to_mm);
+        out.volume_mm3.push_back(body.volume[c] * 1e9);
+        double strain = 0, grain = 0, weakened = 0;
+        for (std::size_t g = 0; g < grains; ++g) {
+            const material::GrainState state = body.strength->state(c * grains + g);
+            strain += state.equivalent_plastic_strain / static_cast<double>(grains);
+            grain += state.grain_diameter_m / static_cast<double>(grains);
+            weakened += state.weakened_fraction / static_cast<double>(grains);
+        }
+        out.equivalent_plastic_strain.push_back(strain);
+        out.grain_diameter_um.push_back(grain * 1e6);
+        out.weakened_fraction.push_back(weakened);
+        out.temperature_K.push_back(body.thermo[c].temperature);
+        const auto& s = body.deviator[c];
+        out.von_mises_GPa.push_back(
+            std::sqrt(1.5 * (s[0] * s[0] + s[1] * s[1] + s[2] * s[2] + 2 * s[3] * s[3])) /
+            1e9);
+        out.pressure_GPa.push_back(body.thermo[c].pressure / 1e9);
+    }
+    return out;
+}
+
+}  // namespace taylorcal::axisymmetric

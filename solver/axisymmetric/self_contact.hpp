@@ -1,0 +1,36 @@
+#pragma once
+
+#include "solver/axisymmetric/body.hpp"
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace taylorcal::axisymmetric {
+
+/// Keeps the free surface from passing through itself when a head folds onto its rear.
+/// Nodes of the outline that are near a segment which is not their neighbour are watched;
+/// one that would pass through it gives up its relative normal velocity (an inelastic,
+/// frictionless collision that conserves momentum).
+class SelfContact {
+  public:
+    explicit SelfContact(const Body& body);
+    /// Corrects the mid-step velocities that `accelerate` made over `interval`, before
+    /// the nodes move by `time_step`; the work goes to `balance.contact`.
+    void apply(Body& body, double interval, double time_step);
+
+  private:
+    struct Pair {
+        std::size_t node;     ///< position in the outline
+        std::size_t segment;  ///< from this position to the next
+    };
+    void search(const Body& body);
+
+    std::vector<double> reference_arc_;  ///< of the outline's nodes [m]
+    std::vector<Pair> watched_;
+    double travel_ = 0;  ///< furthest that a node may have moved since the search
+    double reach_ = 0;   ///< [m]
+    bool searched_ = false;
+};
+
+}  // namespace taylorcal::axisymmetric

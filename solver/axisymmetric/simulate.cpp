@@ -1,0 +1,140 @@
+#include "solver/impact/simulate.hpp"
+
+#include "common/errors.hpp"
+#include "solver/axisymmetric/dynamics.hpp"
+#include "solver/axisymmetric/monitor.hpp"
+#include "solver/axisymmetric/profile.hpp"
+#include "solver/axisymmetric/self_contact.hpp"
+
+#include <cmath>
+#include <ctime>
+
+#include <fmt/format.h>
+
+namespace taylorcal::axisymmetric {
+namespace {
+
+constexpr double step_growth = 1.05;
+constexpr int size_samples = 16;  // over one ringing period after the stop
+constexpr std::int64_t steps_between_clock_reads = 256;
+
+double thread_seconds() {
+    timespec now{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// Time in which a longitudinal wave runs up and down the undeformed specimen [s].
+double ringing_period(const Body& body, double length) {
+    const auto& start = body.thermo.front();
+    const double shear =
+        material::shear_modulus(start.bulk_modulus, body.parameters.poisson_ratio);
+    const double young = 2 * shear * (1 + body.parameters.poisson_ratio);
+    return 2 * length / std::sqrt(young / body.parameters.initial_density);
+}
+
+/// Sizes summed over several moments.
+class SizeMean {
+  public:
+    void add(const observe::Sizes& sizes) {
+        const std::vector<double> values = observe::size_values(sizes);
+        sum_.resize(values.size(), 0.0);
+        for (std::size_t i = 0; i < values.size(); ++i) sum_[i] += values[i];
+        ++count_;
+    }
+    observe::Sizes mean() const {
+        const auto at = [&](std::size_t i) { return sum_[i] / count_; };
+        return {at(0), at(1), at(2), at(3), at(4), at(5), at(6)};
+    }
+
+  private:
+    std::vector<double> sum_;
+    int count_ = 0;
+};
+
+/// A step forward in time. Returns what went wrong, or nothing.
+std::string take_step(Body& body, SelfContact& self_contact) {
+    const double stable = compute_forces(body);
+    const double last = body.time_step;
+    const double step = last > 0 ? std::min(stable, step_growth * last) : stable;
+    if (!(step > 0))
+        return fmt::format("the stable step vanished after {:.2f} us", 1e6 * body.time);
+    accelerate(body, (last + step) / 2, step);
+    self_contact.apply(body, (last + step) / 2, step);
+    body.time_step = step;
+    std::string trouble = advance_cells(body, step);
+    body.time += step;
+    ++body.steps;
+    return trouble;
+}
+
+/// Why a run must end before its specimen has come to rest, or nothing.
+std::string limit_reached(const Body& body, double cpu_s) {
+    const impact::Numerics& numerics = body.numerics;
+    if (body.time > numerics.stop_time_limit_s) {
+        return fmt::format("the rear still moved after {:.0f} us", 1e6 * body.time);
+    }
+    if (body.steps >= numerics.step_limit) {
+        return fmt::format("{} steps were not enough ({:.1f} us reached)", body.steps,
+                           1e6 * body.time);
+    }
+    if (cpu_s > numerics.cpu_limit_s) {
+        return fmt::format(
+            "{:.0f} s of processor time were not enough ({:.1f} us reached)", cpu_s,
+            1e6 * body.time);
+    }
+    return {};
+}
+
+void run(const impact::ImpactCase& impact_case, Body& body,
+         impact::ImpactResult& result) {
+    SelfContact self_contact(body);
+    Monitor monitor(body, impact_case);
+    const bool fixed_time = impact_case.run_until_s > 0;
+    const double begun = thread_seconds();
+    const double ringing = ringing_period(body, impact_case.shape.length());
+    SizeMean sizes;
+    int samples = 0;
+    double stop_time = 0;
+    while (result.reason.empty()) {
+        result.reason = take_step(body, self_contact);
+        if (!result.reason.empty()) {
+            result.status = impact::Status::failed;
+            break;
+        }
+        monitor.observe(body);
+        if (fixed_time) {
+            if (body.time >= impact_case.run_until_s) break;
+        } else if (stop_time == 0) {
+            if (Monitor::rear_velocity(body) >= 0) stop_time = body.time;
+        } else if (body.time >= stop_time + ringing * (samples + 0.5) / size_samples) {
+            sizes.add(observe::measure(deformed_profile(body, impact_case.shape)));
+            if (++samples == size_samples) break;
+        }
+        if (body.steps % steps_between_clock_reads == 0) {
+            result.reason = limit_reached(body, thread_seconds() - begun);
+            result.status = impact::Status::not_stopped;
+        }
+    }
+    if (result.reason.empty()) result.status = impact::Status::stopped;
+    result.profile = deformed_profile(body, impact_case.shape);
+    result.sizes = samples > 0 ? sizes.mean() : observe::measure(result.profile);
+    monitor.report(body, stop_time, result);
+    result.cpu_s = thread_seconds() - begun;
+}
+
+}  // namespace
+
+impact::ImpactResult simulate(const impact::ImpactCase& impact_case) {
+    const int grains = impact_case.numerics.grains_per_point;
+    const int lanes = static_cast<int>(material::lane_count<float>);
+    require(grains > 0 && (lanes % grains == 0 || grains % lanes == 0),
+            fmt::format("grains_per_point = {} (expected a divisor or a multiple of {})",
+                        grains, lanes));
+    impact::ImpactResult result;
+    Body body(impact_case);
+    run(impact_case, body, result);
+    return result;
+}
+
+}  // namespace taylorcal::axisymmetric

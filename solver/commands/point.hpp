@@ -1,0 +1,11 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace taylorcal::commands {
+
+/// Adds `solver point PATH.json --out curve.csv`: the material alone, on a prescribed
+/// path of deformation.
+void add_point(CLI::App& app);
+
+}  // namespace taylorcal::commands

@@ -55,6 +55,12 @@ Numerics numerics_for(Geometry geometry, const std::string& fidelity) {
     numerics.geometry = geometry;
     numerics.elements_across_radius = resolution.elements_across_radius;
     numerics.grains_per_point = resolution.grains_per_point;
+    if (geometry == Geometry::axisymmetric) {
+        // Cells are stable to about 1 and resist hourglassing elastically; particles have
+        // a smaller stable step and a viscous control (the defaults).
+        numerics.cfl = 0.7;
+        numerics.hourglass = 0.3;
+    }
     return numerics;
 }
 

@@ -78,7 +78,7 @@ def write_report(inputs: dict[str, Path], benchmarks: Path, page: Path, plots: P
     plots.mkdir(parents=True, exist_ok=True)
     for section in charts.values():
         for chart in section:
-            save_png(chart, plots)
+            save_png(chart, plots, " (synthetic data)" if results.settings["synthetic"] else "")
     style = Path(inputs["style"]).read_text(encoding="utf-8")
     partial = page.with_name(page.name + ".tmp")
     partial.write_text(render(results, charts, Path(inputs["page"]), style), encoding="utf-8")

@@ -27,11 +27,12 @@ STYLE = {
 }
 
 
-def save_png(chart: Chart, folder: Path) -> None:
+def save_png(chart: Chart, folder: Path, mark: str = "") -> None:
+    """`mark` stands behind the title: what a reader of the picture alone must know."""
     with matplotlib.rc_context(STYLE):
         height = chart.rows * chart.row_height / PIXELS_PER_INCH + 0.5
         figure = Figure(figsize=(WIDTH_INCHES, height), layout="constrained")
-        figure.suptitle(chart.title, x=0.01, ha="left", weight="bold", size=11)
+        figure.suptitle(chart.title + mark, x=0.01, ha="left", weight="bold", size=11)
         grid = figure.subplots(chart.rows, chart.columns, squeeze=False).ravel()
         for axes in grid[len(chart.panels) :]:
             axes.set_axis_off()

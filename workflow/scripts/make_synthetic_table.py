@@ -1,0 +1,140 @@
+"""Makes a table of synthetic shots with the solver: known parameters, then noise by seed.
+
+/usr/bin/python3 workflow/scripts/make_synthetic_table.py --fidelity standard --seed 7 \\
+    --out experiments/paper_design/measurements.csv
+
+The fidelity and the seeds should differ from those of the study's database: a table made
+with the very runs that the network learns from would flatter the calibration.
+"""
+
+import argparse
+import csv
+import json
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+from input_errors import InputError
+from make_design import write_design
+
+# Optimum (ii) of doi 10.3390/ma16165602, and its specimens, velocities and number of rows.
+TRUTH = {
+    "rho_immobile_initial": 6.3e12,
+    "hardening_coefficient": 2.8,
+    "immobilization_velocity": 0.4,
+}
+SHAPES = ["uniform_cylinder", "reduced_head_4mm", "reduced_head_3mm", "truncated_cone"]
+SHOTS = 50
+VELOCITIES_M_S = (19.0, 125.0)
+DIAMETER_MM, LENGTH_MM, TEMPERATURE_K = 8.0, 40.0, 300.0
+# Relative standard errors of a careful measurement.
+NOISE = {
+    "final_length_mm": 0.003,
+    "impact_diameter_mm": 0.01,
+    "head_length_mm": 0.01,
+    "rear_length_mm": 0.01,
+    "transition_diameter_mm": 0.01,
+}
+VELOCITY_NOISE = 0.005
+HELD_BACK = 6  # one shot in so many
+
+
+def shots(seed: int) -> dict:
+    """A design: each shape has velocities evenly from the lowest to the highest."""
+    rows = [(shape, v) for shape in SHAPES for v in _velocities(SHAPES.index(shape))]
+    shot = [DIAMETER_MM, LENGTH_MM / DIAMETER_MM, TEMPERATURE_K, *TRUTH.values()]
+    names = ["velocity_m_s", "initial_diameter_mm", "length_to_diameter", "initial_temperature_K"]
+    seeds = np.random.default_rng(seed).integers(1, 2**31, size=len(rows))
+    return {
+        "run_id": np.arange(len(rows), dtype=np.int64),
+        "seed": seeds.astype(np.int64),
+        "shape": [shape for shape, _ in rows],
+        "inputs": np.array([[velocity, *shot] for _, velocity in rows]),
+        "names": [*names, *TRUTH],
+    }
+
+
+def _velocities(shape: int) -> np.ndarray:
+    count = len(range(shape, SHOTS, len(SHAPES)))
+    return np.round(np.linspace(*VELOCITIES_M_S, count), 1)
+
+
+def run_solver(solver: Path, design: dict, settings: dict, threads: int) -> np.ndarray:
+    """The sizes of NOISE for each shot, from `solver batch`."""
+    with tempfile.TemporaryDirectory() as folder:
+        design_file, config = Path(folder, "design.h5"), Path(folder, "solver.json")
+        write_design(design_file, design)
+        config.write_text(json.dumps(settings))
+        out = Path(folder, "shots.h5")
+        command = [solver, "batch", design_file, "--config", config, "--out", out]
+        subprocess.run([*command, "--threads", str(threads)], check=True)
+        with h5py.File(out) as file:
+            status, reasons = file["status"][:], file["reason"].asstr()[:]
+            names = list(file["outputs"].attrs["names"])
+            sizes = file["outputs"][:][:, [names.index(size) for size in NOISE]]
+    for row in np.flatnonzero(status):
+        raise InputError(f"shot {row} did not stop: {reasons[row]}. Use another fidelity.")
+    return sizes
+
+
+def table_rows(design: dict, sizes: np.ndarray, source: str, seed: int) -> list[dict]:
+    """Measured = true x (1 + noise), the velocity's too; its true value is not told."""
+    noise = np.random.default_rng([seed, 1]).standard_normal((len(sizes), len(NOISE) + 1))
+    rows = []
+    for index, shape in enumerate(design["shape"]):
+        velocity = design["inputs"][index, 0]
+        row = {
+            "id": f"synthetic_{index + 1:02d}",
+            "lot": "synthetic",
+            "use": "validate" if index % HELD_BACK == HELD_BACK // 2 else "calibrate",
+            "material": "copper as modelled",
+            "shape": shape,
+            "initial_temperature_K": f"{TEMPERATURE_K:g}",
+            "velocity_m_s": f"{velocity * (1 + VELOCITY_NOISE * noise[index, -1]):.2f}",
+            "velocity_sd_m_s": f"{VELOCITY_NOISE * velocity:.2f}",
+            "initial_diameter_mm": f"{DIAMETER_MM:g}",
+            "initial_length_mm": f"{LENGTH_MM:g}",
+        }
+        for column, (size, relative) in enumerate(NOISE.items()):
+            true = sizes[index, column]
+            row[size] = f"{true * (1 + relative * noise[index, column]):.4f}"
+            row[f"{size}_sd"] = f"{relative * true:.4f}"
+        rows.append({**row, "source": source, "note": ""})
+    return rows
+
+
+def write_table(path: Path, rows: list[dict]) -> None:
+    with path.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, list(rows[0]), lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--solver", type=Path, default=Path("build/bin/solver"))
+    parser.add_argument("--geometry", choices=["axisymmetric", "3d"], default="axisymmetric")
+    parser.add_argument("--fidelity", choices=["coarse", "standard", "fine"], required=True)
+    parser.add_argument("--seed", type=int, required=True, help="of grains and noise")
+    parser.add_argument("--threads", type=int, default=2)
+    parser.add_argument("--out", type=Path, required=True, help="table to write (CSV)")
+    options = parser.parse_args()
+    settings = {"geometry": options.geometry, "fidelity": options.fidelity}
+    design = shots(options.seed)
+    sizes = run_solver(options.solver.absolute(), design, settings, options.threads)
+    source = (
+        f"synthetic: made by taylorcal's solver ({options.geometry}, {options.fidelity}), "
+        f"optimum (ii) of doi 10.3390/ma16165602, noise added, seed {options.seed}"
+    )
+    write_table(options.out, table_rows(design, sizes, source, options.seed))
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except (InputError, subprocess.CalledProcessError, OSError) as error:
+        sys.exit(f"make_synthetic_table: {error}")

@@ -1,0 +1,38 @@
+"""Prints what a study found: parameters with intervals, misfit, and where the report is.
+
+/usr/bin/python3 workflow/scripts/print_summary.py results/copper_measured
+"""
+
+import argparse
+import json
+from pathlib import Path
+
+USE_WORDS = {"calibrate": "fitted", "validate": "held back"}
+
+
+def summary(results: Path) -> str:
+    comparison = json.loads((results / "comparison.json").read_text(encoding="utf-8"))
+    settings = json.loads((results / "config" / "report.json").read_text(encoding="utf-8"))
+    lines = [settings["title"] + (" (synthetic data)" if settings["synthetic"] else ""), ""]
+    width = max(len(entry["name"]) for entry in comparison["parameters"])
+    lines.append(f"{'calibrated parameter':<{width}}  {'median':>10}  95 % interval")
+    for entry in comparison["parameters"]:
+        base = entry["name"].partition("[")[0]
+        unit = settings["parameters"].get(base, {}).get("unit", "none")
+        interval = f"{entry['lower95']:.3g} to {entry['upper95']:.3g}"
+        unit = "" if unit == "none" else f" {unit}"
+        lines.append(f"{entry['name']:<{width}}  {entry['median']:>10.3g}  {interval}{unit}")
+    lines.append("")
+    for use, misfit in comparison["misfit"].items():
+        if misfit["n"]:
+            lines.append(
+                f"misfit, {USE_WORDS.get(use, use)}: {100 * misfit['rms_relative']:.2f} % root "
+                f"mean square, {misfit['whitened_rms']:.2f} standard errors, {misfit['n']} data"
+            )
+    return "\n".join([*lines, "", f"report: {results / 'report.html'}"])
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("results", type=Path, help="folder of the study's results")
+    print(summary(parser.parse_args().results))

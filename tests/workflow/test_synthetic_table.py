@@ -1,0 +1,46 @@
+"""The synthetic table is the truth plus the stated noise, and a study can use it."""
+
+import numpy as np
+from tiny_study import ROOT
+
+from make_synthetic_table import HELD_BACK, NOISE, SHAPES, SHOTS, TRUTH, VELOCITY_NOISE
+from make_synthetic_table import shots, table_rows, write_table
+from measurements import check_against_study, read_measurements
+from study import read_study
+
+SIZES = np.tile([36.0, 10.0, 8.0, 28.0, 8.5], (SHOTS, 1))
+
+
+def test_the_design_is_the_papers():
+    made = shots(seed=3)
+    assert len(made["shape"]) == SHOTS and set(made["shape"]) == set(SHAPES)
+    assert made["inputs"][:, 0].min() == 19 and made["inputs"][:, 0].max() == 125
+    for name, value in TRUTH.items():
+        assert (made["inputs"][:, made["names"].index(name)] == value).all()
+
+
+def test_the_noise_has_the_stated_size():
+    made = shots(seed=3)
+    deviations = {size: [] for size in NOISE}
+    velocity = []
+    for seed in range(20):
+        for index, row in enumerate(table_rows(made, SIZES, "synthetic", seed)):
+            for column, (size, relative) in enumerate(NOISE.items()):
+                true = SIZES[index, column]
+                deviations[size].append((float(row[size]) / true - 1) / relative)
+            true = made["inputs"][index, 0]
+            velocity.append((float(row["velocity_m_s"]) / true - 1) / VELOCITY_NOISE)
+    # 1000 values each: the mean is within 4 of its standard errors of 0, the spread of 1.
+    for values in [*deviations.values(), velocity]:
+        assert abs(np.mean(values)) < 4 / np.sqrt(1000)
+        assert abs(np.std(values) - 1) < 4 / np.sqrt(2000)
+
+
+def test_the_table_is_valid_and_labelled(tmp_path):
+    rows = table_rows(shots(seed=3), SIZES, "synthetic: made by taylorcal's solver", 3)
+    write_table(tmp_path / "measurements.csv", rows)
+    read = read_measurements(tmp_path / "measurements.csv")
+    assert all(row["source"].startswith("synthetic") for row in read)
+    assert sum(row["use"] == "validate" for row in read) == SHOTS // HELD_BACK
+    study = read_study(ROOT / "experiments" / "paper_design" / "study.yaml")
+    check_against_study(read, study, tmp_path / "measurements.csv")

@@ -63,8 +63,8 @@ Eigen::Matrix3d read_velocity_gradient(const JsonReader& reader) {
 
 PathSegment read_segment(const JsonReader& reader) {
     reader.only({"velocity_gradient_per_s", "duration_s", "outputs"});
-    const PathSegment segment{read_velocity_gradient(reader),
-                              positive(reader, "duration_s"), reader.integer("outputs")};
+    PathSegment segment{read_velocity_gradient(reader), positive(reader, "duration_s"),
+                        reader.integer("outputs")};
     if (segment.outputs < 1 || static_cast<double>(segment.outputs) > most_outputs)
         reader.fail("outputs", fmt::format("= {} (expected 1 to {:.0f} rows).",
                                            segment.outputs, most_outputs));

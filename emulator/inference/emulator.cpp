@@ -82,10 +82,16 @@ void Emulator::check_range(const std::string& name, double value,
     const double margin = 0.01 * (upper - lower) + 1e-6 * std::abs(upper);
     const double place = transformed(input, value);
     require(place >= lower - margin && place <= upper + margin,
-            fmt::format(
-                "{}: {} = {} is beyond the emulator's range {} to {}. Leave this point "
-                "out, or add runs there to the database and train again.",
-                context, name, value, input.lower, input.upper));
+            fmt::format("{}: {} = {} is beyond the emulator's range {:.6g} to {:.6g}. "
+                        "Leave this point "
+                        "out, or add runs there to the database and train again.",
+                        context, name, value, input.lower, input.upper));
+}
+
+bool Emulator::has_output(const std::string& output,
+                          const std::string& category_value) const {
+    const std::vector<std::string>& known = covariance(category_value).outputs;
+    return std::ranges::find(known, output) != known.end();
 }
 
 double Emulator::divisor(int output,

@@ -38,6 +38,10 @@ class Emulator {
     void check_range(const std::string& name, double value,
                      const std::string& context) const;
 
+    /// Whether the database had this output for this category value; what the network
+    /// says of one that it never saw means nothing.
+    bool has_output(const std::string& output, const std::string& category_value) const;
+
     /// Product of the inputs named in `divide_by` of an output, at one point (all
     /// inputs).
     double divisor(int output, const Eigen::Ref<const Eigen::VectorXd>& point) const;

@@ -1,0 +1,63 @@
+#include "common/errors.hpp"
+#include "common/provenance.hpp"
+#include "emulator/commands/commands.hpp"
+
+#include <CLI/CLI.hpp>
+#include <omp.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+namespace emulator = taylorcal::emulator;
+
+int main(int argc, char** argv) {
+    spdlog::set_default_logger(spdlog::stderr_color_mt("emulator"));
+    spdlog::set_pattern("%n: %v");
+
+    CLI::App app("Regression networks: learn a database of runs, then answer at once.");
+    app.set_version_flag("--version", taylorcal::version());
+    app.require_subcommand(1);
+    app.footer(
+        "Examples:\n"
+        "  emulator train database.h5 --config train.json --out emulator.json\n"
+        "  emulator validate emulator.json database.h5\n"
+        "  emulator predict emulator.json points.csv\n"
+        "  emulator predict emulator.json --set velocity_m_s=190 --category "
+        "uniform_cylinder");
+
+    emulator::TrainArguments training;
+    training.threads = omp_get_max_threads();
+    CLI::App* train = app.add_subcommand("train", "Train an ensemble on a database");
+    train->add_option("database", training.database, "Database of runs (HDF5)")
+        ->required();
+    train->add_option("--config", training.config, "What to learn, and how (JSON)")
+        ->required();
+    train->add_option("--out", training.out, "Emulator file to write (JSON)")->required();
+    train->add_option("--threads", training.threads, "Members trained at once")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+
+    std::string model, database;
+    CLI::App* validate = app.add_subcommand(
+        "validate",
+        "Errors against all finished runs of a database, by output and shape (CSV)");
+    validate->add_option("emulator", model, "Emulator file")->required();
+    validate->add_option("database", database, "Database of runs (HDF5)")->required();
+
+    emulator::PredictArguments prediction;
+    CLI::App* predict = app.add_subcommand("predict", "Outputs at given points (CSV)");
+    predict->add_option("emulator", prediction.emulator, "Emulator file")->required();
+    predict->add_option("inputs", prediction.table, "Table of points (CSV)");
+    predict->add_option("--set", prediction.set, "One point: name=value, repeated");
+    predict->add_option("--category", prediction.category, "The point's category value");
+
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : 1;
+    }
+    return taylorcal::guarded_main("emulator", [&] {
+        if (train->parsed()) return emulator::train(training);
+        if (validate->parsed()) return emulator::validate(model, database);
+        return emulator::predict(prediction);
+    });
+}

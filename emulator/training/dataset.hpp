@@ -1,0 +1,34 @@
+#pragma once
+
+#include "common/hdf5_file.hpp"
+#include "emulator/inference/model.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace taylorcal::emulator {
+
+/// Rows to learn from: chosen columns of a database, in the units of the database.
+struct Dataset {
+    std::vector<std::int64_t> row_ids;
+    RowMatrix inputs;                     ///< [rows x inputs]
+    std::vector<std::string> categories;  ///< One a row; all "all" when there is none.
+    RowMatrix outputs;      ///< [rows x outputs], NaN where without meaning.
+    long dropped_rows = 0;  ///< Not finished, or without any output.
+
+    Eigen::Index rows() const { return inputs.rows(); }
+};
+
+/// The category value of every row when the data have no category.
+inline constexpr const char* no_category = "all";
+
+/// Reads columns by name; rows whose status is not 0 are dropped and counted. InputError
+/// naming the file, the column and the row for what cannot be learnt from.
+Dataset read_dataset(const std::filesystem::path& path,
+                     const std::vector<std::string>& input_names,
+                     const std::string& category,
+                     const std::vector<std::string>& output_names);
+
+}  // namespace taylorcal::emulator

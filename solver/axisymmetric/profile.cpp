@@ -32,6 +32,8 @@ observe::DeformedProfile deformed_profile(const Body& body,
     for (const std::size_t n : body.mesh.outline) {
         profile.outline_radius.push_back(body.radius[n]);
         profile.outline_height.push_back(body.height[n] - table);
+        if (n == body.mesh.transition.back())
+            profile.head_points = profile.outline_height.size();
     }
     profile.total_length = section_mean(body, body.mesh.rear, height_of) - table;
     profile.transition_height =

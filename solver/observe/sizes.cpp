@@ -22,11 +22,13 @@ double radius_on_piece(const DeformedProfile& profile, std::size_t i, double hei
                      (height - lower) / rise);
 }
 
-/// The silhouette's radius at a height: the largest where a folded outline crosses it
-/// several times, as a calliper reads it. NaN above the specimen.
-double silhouette_radius(const DeformedProfile& profile, double height) {
+/// The silhouette's radius at a height, of the first `points` of the outline: the largest
+/// where a folded outline crosses it several times, as a calliper reads it. NaN where the
+/// specimen does not reach.
+double silhouette_radius(const DeformedProfile& profile, double height,
+                         std::size_t points) {
     double largest = nan;
-    for (std::size_t i = 0; i + 1 < profile.outline_height.size(); ++i) {
+    for (std::size_t i = 0; i + 1 < points; ++i) {
         const auto [low, high] =
             std::minmax(profile.outline_height[i], profile.outline_height[i + 1]);
         if (height >= low && height <= high)
@@ -35,11 +37,14 @@ double silhouette_radius(const DeformedProfile& profile, double height) {
     return largest;
 }
 
-/// The largest radius of the outline between the anvil and the top of the foot zone,
-/// where the piece that leaves the zone is cut.
+/// The head's largest radius between the anvil and the top of the foot zone, where the
+/// piece that leaves the zone is cut. The rear is not read: its shoulder sinks into the
+/// zone as a head collapses, and the size would jump.
 double foot_radius(const DeformedProfile& profile) {
-    double largest = silhouette_radius(profile, foot_zone);
-    for (std::size_t i = 0; i < profile.outline_height.size(); ++i)
+    const std::size_t points =
+        profile.head_points > 0 ? profile.head_points : profile.outline_height.size();
+    double largest = silhouette_radius(profile, foot_zone, points);
+    for (std::size_t i = 0; i < points; ++i)
         if (profile.outline_height[i] <= foot_zone)
             largest = std::fmax(largest, profile.outline_radius[i]);
     return largest;
@@ -85,7 +90,9 @@ Sizes measure(const DeformedProfile& profile) {
     sizes.transition_diameter_mm = to_mm * 2 * profile.transition_radius;
     sizes.undeformed_length_mm = to_mm * undeformed_length(profile);
     sizes.diameter_at_0p2L0_mm =
-        to_mm * 2 * silhouette_radius(profile, low_section * profile.initial_length);
+        to_mm * 2 *
+        silhouette_radius(profile, low_section * profile.initial_length,
+                          profile.outline_height.size());
     return sizes;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@ namespace taylorcal::observe {
 struct DeformedProfile {
     std::vector<double> outline_height;
     std::vector<double> outline_radius;
+    std::size_t head_points = 0;  ///< first outline points, on the head; 0: all
     double total_length = 0;
     double transition_height = 0;  ///< mean height of the head-rear material plane
     double transition_radius = 0;  ///< its outline's radius
@@ -21,7 +23,8 @@ struct DeformedProfile {
 /// The measured sizes [mm]; NaN where a size has no meaning.
 struct Sizes {
     double final_length_mm;
-    double impact_diameter_mm;  ///< 2 x largest outline radius within 2 mm of the anvil
+    double
+        impact_diameter_mm;  ///< 2 x largest radius of the head within 2 mm of the anvil
     double head_length_mm;
     double rear_length_mm;
     double transition_diameter_mm;

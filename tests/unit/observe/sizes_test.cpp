@@ -73,6 +73,15 @@ TEST_CASE("the foot is read within 2 mm of the anvil only", "[sizes]") {
     CHECK_THAT(sizes.impact_diameter_mm, WithinRel(2 * radius(2), 1e-12));
 }
 
+TEST_CASE("the shoulder of the rear that sinks to the anvil is not the foot", "[sizes]") {
+    DeformedProfile profile = profile_of([](double) { return 4; }, 40, 1);
+    profile.outline_radius = {3.4e-3, 3e-3, 1.5e-3, 4e-3, 4e-3};
+    profile.head_points = 3;
+    const double shoulder = GENERATE(1.9e-3, 2.1e-3);
+    profile.outline_height = {0, 0.5e-3, shoulder, shoulder, 32e-3};
+    CHECK_THAT(measure(profile).impact_diameter_mm, WithinRel(6.8, 1e-12));
+}
+
 TEST_CASE("a step keeps the rear whole", "[sizes]") {
     DeformedProfile profile = profile_of([](double) { return 4; }, 40, 1);
     profile.outline_height = {0, 9e-3, 9e-3, 38e-3};

@@ -101,8 +101,11 @@ std::string predict_table(const Emulator& emulator, const std::vector<Point>& po
         const Eigen::ArrayXd sd = ((squares / n - (sum / n).square()).max(0)).sqrt();
         std::string line = has_category ? point.category : "";
         for (Eigen::Index k = 0; k < best.rows(); ++k) {
-            line +=
-                fmt::format("{}{},{:.3g}", line.empty() ? "" : ",", best(k, 0), sd[k]);
+            const std::string& name =
+                emulator.outputs()[static_cast<std::size_t>(k)].name;
+            const bool known = emulator.has_output(name, point.category);
+            line += line.empty() ? "" : ",";
+            line += known ? fmt::format("{},{:.3g}", best(k, 0), sd[k]) : ",";
         }
         table += line + '\n';
     }

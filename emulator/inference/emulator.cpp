@@ -107,8 +107,9 @@ void Emulator::evaluate_member(std::size_t member, const Block& points, int cate
     const ForwardPass& forward = forward_[member];
     const Eigen::Index n = points.cols();
     results.resize(forward.outputs(), n);
-    workspace.from.resize(forward.widest(), block_width);
-    workspace.to.resize(forward.widest(), block_width);
+    const Eigen::Index columns = std::min(block_width, n);
+    workspace.from.resize(forward.widest(), columns);
+    workspace.to.resize(forward.widest(), columns);
     for (Eigen::Index start = 0; start < n; start += block_width) {
         const Eigen::Index width = std::min(block_width, n - start);
         Eigen::Index row = 0;

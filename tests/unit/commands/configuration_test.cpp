@@ -1,0 +1,48 @@
+#include "solver/commands/configuration.hpp"
+
+#include "common/errors.hpp"
+
+#include <catch2/catch.hpp>
+
+namespace {
+
+using namespace taylorcal;
+using namespace taylorcal::commands;
+using Catch::Matchers::Contains;
+
+Configuration configuration_of(const nlohmann::json& document) {
+    return read_configuration(JsonReader(document, "solver.json"));
+}
+
+}  // namespace
+
+TEST_CASE("a finer fidelity has more elements in both geometries", "[configuration]") {
+    const std::string geometry = GENERATE("axisymmetric", "3d");
+    int coarser = 0;
+    for (const std::string& fidelity : impact::fidelity_names()) {
+        const impact::Numerics numerics =
+            configuration_of({{"geometry", geometry}, {"fidelity", fidelity}}).numerics;
+        CHECK(numerics.geometry == impact::geometry_from_name(geometry));
+        CHECK(numerics.elements_across_radius > coarser);
+        coarser = numerics.elements_across_radius;
+    }
+}
+
+TEST_CASE("the material block changes what it names", "[configuration]") {
+    const Configuration configuration =
+        configuration_of({{"material", {{"strength", "j2"}, {"j2_yield_stress", 3e8}}}});
+    CHECK(configuration.material.strength == material::StrengthModel::j2);
+    CHECK(configuration.material.j2_yield_stress == 3e8);
+    CHECK(configuration.material.poisson_ratio == material::Parameters{}.poisson_ratio);
+    CHECK(configuration.document["geometry"] == "axisymmetric");
+    CHECK(configuration.document["fidelity"] == "standard");
+}
+
+TEST_CASE("a wrong configuration is refused at its key", "[configuration]") {
+    CHECK_THROWS_WITH(configuration_of({{"fidelty", "fine"}}),
+                      Contains("solver.json: fidelty") && Contains("\"fidelity\""));
+    CHECK_THROWS_WITH(configuration_of({{"material", {{"strength", 2}}}}),
+                      Contains("material.strength = 2"));
+    CHECK_THROWS_WITH(configuration_of({{"material", {{"taylor_quinney", 1.5}}}}),
+                      Contains("solver.json: material: taylor_quinney = 1.5"));
+}

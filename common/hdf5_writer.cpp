@@ -27,6 +27,7 @@ Hdf5Handle space_of(const std::vector<hsize_t>& shape) {
 
 std::vector<const char*> pointers(const std::vector<std::string>& texts) {
     std::vector<const char*> result;
+    result.reserve(texts.size());
     for (const std::string& text : texts) result.push_back(text.c_str());
     return result;
 }

@@ -157,7 +157,7 @@ std::string JsonReader::text(std::string_view key,
 
 std::string JsonReader::word(std::string_view key,
                              const std::vector<std::string>& allowed) const {
-    const std::string value = text(key);
+    std::string value = text(key);
     if (std::ranges::find(allowed, value) == allowed.end()) {
         const std::string near = nearest_word(value, allowed);
         fail(key,

@@ -1,0 +1,166 @@
+#include "solver/axisymmetric/dynamics.hpp"
+#include "solver/axisymmetric/self_contact.hpp"
+#include "solver/impact/simulate.hpp"
+
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+using namespace taylorcal;
+using namespace taylorcal::axisymmetric;
+using specimen::ShapeKind;
+
+namespace {
+
+impact::ImpactCase small_case(ShapeKind kind, double velocity) {
+    impact::ImpactCase impact_case;
+    impact_case.shape = specimen::make_shape(kind);
+    impact_case.velocity_m_s = velocity;
+    impact_case.numerics.elements_across_radius = 5;
+    impact_case.numerics.grains_per_point = 8;
+    impact_case.numerics.cfl = 0.7;
+    impact_case.numerics.hourglass = 0.3;
+    return impact_case;
+}
+
+}  // namespace
+
+TEST_CASE("a run to the stop keeps its energy and shortens its specimen") {
+    for (const ShapeKind kind :
+         {ShapeKind::uniform_cylinder, ShapeKind::reduced_head_4mm}) {
+        const auto result = axisymmetric::simulate(small_case(kind, 70));
+        REQUIRE(result.status == impact::Status::stopped);
+        CHECK(result.descriptors.energy_error < 2e-3);
+        CHECK(result.descriptors.viscous_share < 0.02);
+        CHECK(result.descriptors.hourglass_share < 0.04);
+        CHECK(result.sizes.final_length_mm < 39.5);
+        CHECK(result.sizes.final_length_mm > 33);
+    }
+}
+
+TEST_CASE("an elastic wave runs along a thin bar at sqrt(E/rho)") {
+    impact::ImpactCase impact_case = small_case(ShapeKind::uniform_cylinder, 0.5);
+    impact_case.shape = specimen::make_shape(ShapeKind::uniform_cylinder, 1e-3, 40e-3);
+    impact_case.material.strength = material::StrengthModel::elastic;
+    impact_case.material.equation_of_state = material::EquationOfStateModel::linear;
+    Body body(impact_case);
+    // Two gauges on the axis: where the front's middle has passed tells its speed.
+    const auto gauge_at = [&](double target) {
+        std::size_t nearest = 0;
+        for (std::size_t n = 0; n < body.nodes(); ++n) {
+            if (body.radius[n] == 0 && std::abs(body.height[n] - target) <
+                                           std::abs(body.height[nearest] - target)) {
+                nearest = n;
+            }
+        }
+        return nearest;
+    };
+    const std::size_t gauges[] = {gauge_at(10e-3), gauge_at(30e-3)};
+    double arrival[2] = {};
+    double step = compute_forces(body);
+    while (arrival[1] == 0 && body.time < 20e-6) {
+        body.time_step = step;
+        accelerate(body, step, step);
+        REQUIRE(advance_cells(body, step).empty());
+        body.time += step;
+        step = compute_forces(body);
+        for (int g = 0; g < 2; ++g) {
+            if (arrival[g] == 0 && body.axial_velocity[gauges[g]] > -0.25) {
+                arrival[g] = body.time;
+            }
+        }
+    }
+    const double distance =
+        body.mesh.node_height[gauges[1]] - body.mesh.node_height[gauges[0]];
+    const double shear = material::shear_modulus(138e9, 0.34);
+    const double young = 2 * shear * 1.34;
+    CHECK(distance / (arrival[1] - arrival[0]) ==
+          Approx(std::sqrt(young / 8930)).epsilon(0.01));
+}
+
+TEST_CASE(
+    "the anvil's impulse is the specimen's change of momentum, and it never pulls") {
+    const impact::ImpactCase impact_case = small_case(ShapeKind::uniform_cylinder, 60);
+    Body body(impact_case);
+    double before = 0;
+    for (std::size_t n = 0; n < body.nodes(); ++n) {
+        before += body.node_mass[n] * body.axial_velocity[n];
+    }
+    const double step = compute_forces(body);
+    for (int i = 0; i < 500; ++i) {
+        body.time_step = step;
+        std::vector<double> free = body.axial_velocity;
+        for (std::size_t n = 0; n < body.nodes(); ++n) {
+            free[n] += body.axial_force[n] / body.node_mass[n] * step;
+        }
+        double internal = 0;
+        for (const double force : body.axial_force) internal += force;
+        accelerate(body, step, step);
+        double impulse = 0;
+        for (std::size_t n = 0; n < body.nodes(); ++n) {
+            const double given = body.node_mass[n] * (body.axial_velocity[n] - free[n]);
+            CHECK(given >= 0);
+            impulse += given;
+        }
+        double after = 0;
+        for (std::size_t n = 0; n < body.nodes(); ++n) {
+            after += body.node_mass[n] * body.axial_velocity[n];
+        }
+        CHECK(std::abs(internal) * step < 1e-9 * std::abs(before));
+        CHECK(after - before == Approx(impulse).margin(1e-9 * std::abs(before)));
+        before = after;
+        REQUIRE(advance_cells(body, step).empty());
+        compute_forces(body);
+    }
+}
+
+TEST_CASE("outline nodes that meet give up their closing velocity, momentum kept") {
+    impact::ImpactCase impact_case = small_case(ShapeKind::reduced_head_4mm, 0);
+    Body body(impact_case);
+    SelfContact contact(body);
+    // The shoulder's outer node is brought down onto the head's side.
+    const auto& outline = body.mesh.outline;
+    const std::size_t corner =
+        outline[outline.size() - 1 -
+                static_cast<std::size_t>(
+                    std::count_if(outline.begin(), outline.end(), [&](std::size_t n) {
+                        return body.mesh.node_height[n] > 10.001e-3;
+                    }))];
+    REQUIRE(body.mesh.node_radius[corner] == Approx(4e-3));
+    body.radius[corner] = 2.01e-3;
+    body.height[corner] = 4.7e-3;
+    body.radial_velocity[corner] = -50;
+    const double momentum = body.node_mass[corner] * -50;
+    contact.apply(body, 0.0, 1e-6);
+    double after = 0;
+    for (std::size_t n = 0; n < body.nodes(); ++n) {
+        after += body.node_mass[n] * body.radial_velocity[n];
+    }
+    CHECK(after == Approx(momentum));
+    CHECK(body.radial_velocity[corner] > -50);
+    CHECK(body.balance.contact > 0);
+}
+
+TEST_CASE("the 227 m/s copper bar at a coarse setting is near the published sizes") {
+    impact::ImpactCase impact_case = small_case(ShapeKind::uniform_cylinder, 227);
+    impact_case.shape =
+        specimen::make_shape(ShapeKind::uniform_cylinder, 6.4e-3, 32.4e-3);
+    impact_case.material.strength = material::StrengthModel::j2;
+    impact_case.material.equation_of_state = material::EquationOfStateModel::linear;
+    impact_case.material.poisson_ratio = 0.35;
+    impact_case.material.bulk_modulus = 117e9 / 3 / (1 - 0.7);
+    impact_case.run_until_s = 80e-6;
+    const auto result = axisymmetric::simulate(impact_case);
+    REQUIRE(result.status == impact::Status::stopped);
+    CHECK(result.sizes.final_length_mm == Approx(21.45).epsilon(0.01));
+    CHECK(result.sizes.impact_diameter_mm / 2 == Approx(7.2).epsilon(0.03));
+}
+
+TEST_CASE("a run that cannot end says so and keeps its sizes") {
+    impact::ImpactCase impact_case = small_case(ShapeKind::uniform_cylinder, 60);
+    impact_case.numerics.stop_time_limit_s = 5e-6;
+    const auto result = axisymmetric::simulate(impact_case);
+    CHECK(result.status == impact::Status::not_stopped);
+    CHECK(result.reason.find("still moved") != std::string::npos);
+    CHECK(std::isfinite(result.sizes.final_length_mm));
+}

@@ -1,0 +1,51 @@
+#include "solver/axisymmetric/mesh.hpp"
+
+#include "solver/axisymmetric/quadrilateral.hpp"
+
+#include <numbers>
+
+#include <catch2/catch.hpp>
+
+using namespace taylorcal;
+using namespace taylorcal::axisymmetric;
+using specimen::ShapeKind;
+
+TEST_CASE("cells fill the profile: volume, outline and sections") {
+    struct Expected {
+        ShapeKind kind;
+        double volume_mm3;
+    };
+    constexpr double pi = std::numbers::pi;
+    // Cylinders and a truncated cone, pi h (R^2 + R r + r^2)/3.
+    const Expected expected[] = {
+        {ShapeKind::uniform_cylinder, pi * 16 * 40},
+        {ShapeKind::reduced_head_4mm, pi * (4 * 10 + 16 * 30)},
+        {ShapeKind::reduced_head_3mm, pi * (2.25 * 10 + 16 * 30)},
+        {ShapeKind::truncated_cone, pi * (20.0 / 3 * (16 + 4 + 1) + 16 * 20)}};
+    for (const auto& [kind, volume_mm3] : expected) {
+        for (const int across : {6, 8, 13}) {
+            const specimen::Shape shape = specimen::make_shape(kind);
+            const Mesh mesh = make_mesh(shape, across);
+            double volume = 0;
+            for (const auto& cell : mesh.cells) {
+                std::array<double, 4> r{}, z{};
+                for (std::size_t a = 0; a < 4; ++a) {
+                    r[a] = mesh.node_radius[cell[a]];
+                    z[a] = mesh.node_height[cell[a]];
+                }
+                const Ring ring = ring_of(r, z);
+                CHECK(ring.area > 0);
+                volume += ring.volume;
+            }
+            CHECK(volume * 1e9 == Approx(volume_mm3).epsilon(1e-12));
+            CHECK(mesh.node_height[mesh.transition.front()] == Approx(shape.head_length));
+            CHECK(mesh.node_height[mesh.outline.front()] == 0);
+            CHECK(mesh.node_height[mesh.outline.back()] == Approx(40e-3));
+            CHECK(mesh.node_radius[mesh.outline.back()] == Approx(4e-3));
+            for (std::size_t i = 0; i + 1 < mesh.outline.size(); ++i) {
+                CHECK(mesh.node_height[mesh.outline[i + 1]] >=
+                      mesh.node_height[mesh.outline[i]]);
+            }
+        }
+    }
+}

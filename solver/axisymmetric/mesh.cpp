@@ -8,11 +8,12 @@
 namespace taylorcal::axisymmetric {
 namespace {
 
-// Height / width of cells at the start. The foot of a head, and far more the tip of a
-// cone, is stretched along the frictionless anvil, so that its cells end flat.
-constexpr double cylinder_aspect = 1;
+// Height / width of cells at the start. The foot of a cylinder or a head, and far more
+// the tip of a cone, is stretched along the frictionless anvil, so that its cells end
+// flat.
+constexpr double cylinder_aspect = 2;
 constexpr double head_aspect = 2;
-constexpr double cone_aspect = 4;
+constexpr double cone_aspect = 6;
 // A cone keeps its columns from tip to rear; fewer than across the rear keep its tip's
 // cells, which set the stable step, from becoming needlessly small.
 constexpr double cone_column_share = 5.0 / 8;

@@ -1,0 +1,66 @@
+#include "calibrate/commands/sample.hpp"
+
+#include "calibrate/posterior/posterior_file.hpp"
+#include "calibrate/posterior/summary.hpp"
+#include "calibrate/sampling/adapt.hpp"
+#include "common/progress.hpp"
+
+#include <cmath>
+#include <cstdio>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+namespace taylorcal::calibrate {
+namespace {
+
+void print_result(const PosteriorResult& result, const ParameterSpace& space,
+                  const SpreadLevels& levels, const Settings& settings) {
+    const Posterior& posterior = result.posterior;
+    const Maximum& best = result.maxima.front();
+    const RowMatrix maximum =
+        plain_columns(best.unit.transpose(), {best.level}, space, levels);
+    const RowMatrix draws =
+        plain_columns(posterior.kept.units, posterior.kept.levels, space, levels);
+    fmt::print("{}", parameter_table(
+                         summarise(column_names(space, levels), draws, maximum.row(0))));
+    fmt::print("maxima: {}", result.maxima.size());
+    for (const Maximum& m : result.maxima) fmt::print("  {:.0f} %", 100 * m.share);
+    fmt::print("\n");
+    if (settings.likelihood == LikelihoodForm::full)
+        fmt::print("ln evidence: {:.2f} +- {:.2f}\n", posterior.log_evidence,
+                   posterior.log_evidence_sd);
+    fmt::print("effective sample size: {:.0f} of {} draws{}, {:.3g} shots predicted\n",
+               posterior.effective_sample_size, posterior.draws,
+               posterior.draws_per_lot > 1
+                   ? fmt::format(" with {} a lot for each", posterior.draws_per_lot)
+                   : "",
+               static_cast<double>(posterior.predictions));
+}
+
+}  // namespace
+
+void sample(const InputPaths& paths, const std::filesystem::path& out, int threads) {
+    const StudyInputs inputs(paths);
+    PosteriorResult result;
+    {
+        Progress progress("sampling", inputs.settings.draws);
+        result.posterior = sample_posterior(
+            inputs.settings, inputs.set, inputs.space, inputs.predictor, threads,
+            [&progress](std::uint64_t done) { progress.advance(done); });
+    }
+    const LotLikelihood likelihood(inputs.settings, inputs.set, inputs.space,
+                                   inputs.predictor, result.posterior.reference);
+    result.maps = make_maps(result.posterior.pool, inputs.space, likelihood.levels());
+    result.maxima =
+        find_maxima(likelihood, result.posterior.kept, result.posterior.log_evidence);
+    write_posterior(out, result, inputs.space, likelihood.levels(), inputs.settings);
+    print_result(result, inputs.space, likelihood.levels(), inputs.settings);
+    if (result.posterior.effective_sample_size < enough_draws)
+        spdlog::warn(
+            "not enough draws: {:.0f} effective, at least {:.0f} are needed for "
+            "reliable intervals. Raise draws or draws_per_lot.",
+            result.posterior.effective_sample_size, enough_draws);
+}
+
+}  // namespace taylorcal::calibrate

@@ -1,0 +1,102 @@
+#include "calibrate/comparison/groups.hpp"
+
+#include "calibrate/comparison/words.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace taylorcal::calibrate {
+namespace {
+
+/// One measured size with everything that groups are made by.
+struct Residual {
+    std::string size, shape, lot, third, use;
+    double relative = 0;
+    double standardised = 0;
+    double whitened = 0;
+};
+
+std::vector<Residual> list_residuals(const std::vector<ShotComparison>& shots,
+                                     const std::vector<std::string>& sizes) {
+    const VelocityThirds thirds = velocity_thirds(shots);
+    std::vector<Residual> all;
+    for (const ShotComparison& shot : shots) {
+        const Shot& row = shot.datum->shot;
+        for (Eigen::Index i = 0; i < shot.residual.size(); ++i) {
+            const auto column = shot.datum->columns[static_cast<std::size_t>(i)];
+            all.push_back({sizes[static_cast<std::size_t>(column)], row.shape, row.lot,
+                           thirds.word(row.velocity_m_s), use_word(row.use),
+                           shot.residual(i) / shot.datum->measured_mm(i),
+                           shot.standardised(i), shot.whitened(i)});
+        }
+    }
+    return all;
+}
+
+ResidualGroup summarise_group(const std::string& by, const std::string& key,
+                              const std::vector<const Residual*>& members) {
+    ResidualGroup group{by, key, members.front()->size, members.front()->third};
+    const auto n = static_cast<double>(members.size());
+    for (const Residual* r : members) {
+        group.rms_relative += r->relative * r->relative / n;
+        group.mean_relative += r->relative / n;
+        group.mean_standardised += r->standardised / n;
+        group.whitened_rms += r->whitened * r->whitened / n;
+        if (r->size != group.size) group.size.clear();
+        if (r->third != group.velocity_third) group.velocity_third.clear();
+    }
+    group.n = members.size();
+    group.rms_relative = std::sqrt(group.rms_relative);
+    group.whitened_rms = std::sqrt(group.whitened_rms);
+    group.words = group_words(group);
+    return group;
+}
+
+template <class Key>
+void add_groups(std::vector<ResidualGroup>& groups, const std::string& by,
+                const std::vector<Residual>& residuals, const Key& key_of) {
+    std::vector<std::string> order;
+    std::map<std::string, std::vector<const Residual*>> members;
+    for (const Residual& residual : residuals) {
+        const std::string key = key_of(residual);
+        auto& list = members[key];
+        if (list.empty()) order.push_back(key);
+        list.push_back(&residual);
+    }
+    for (const std::string& key : order)
+        groups.push_back(summarise_group(by, key, members[key]));
+}
+
+}  // namespace
+
+std::string VelocityThirds::word(double velocity_m_s) const {
+    if (velocity_m_s <= low_to_middle) return "low";
+    return velocity_m_s <= middle_to_high ? "middle" : "high";
+}
+
+VelocityThirds velocity_thirds(const std::vector<ShotComparison>& shots) {
+    std::vector<double> velocities;
+    for (const ShotComparison& shot : shots)
+        velocities.push_back(shot.datum->shot.velocity_m_s);
+    std::sort(velocities.begin(), velocities.end());
+    const std::size_t n = velocities.size();
+    return {velocities[(n - 1) / 3], velocities[2 * (n - 1) / 3]};
+}
+
+std::vector<ResidualGroup> group_residuals(const std::vector<ShotComparison>& shots,
+                                           const std::vector<std::string>& sizes) {
+    const std::vector<Residual> all = list_residuals(shots, sizes);
+    std::vector<ResidualGroup> groups;
+    add_groups(groups, "use", all, [](const Residual& r) { return r.use; });
+    add_groups(groups, "size", all, [](const Residual& r) { return r.size; });
+    add_groups(groups, "shape", all, [](const Residual& r) { return r.shape; });
+    add_groups(groups, "lot", all, [](const Residual& r) { return r.lot; });
+    add_groups(groups, "velocity_third", all, [](const Residual& r) { return r.third; });
+    add_groups(groups, "shape x size x velocity_third", all, [](const Residual& r) {
+        return r.shape + " x " + r.size + " x " + r.third;
+    });
+    return groups;
+}
+
+}  // namespace taylorcal::calibrate

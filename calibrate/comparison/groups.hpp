@@ -1,0 +1,39 @@
+#pragma once
+
+#include "calibrate/comparison/shot_comparison.hpp"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace taylorcal::calibrate {
+
+/// Bounds between the low, middle and high third of the shots by velocity [m/s].
+struct VelocityThirds {
+    double low_to_middle = 0;
+    double middle_to_high = 0;
+    std::string word(double velocity_m_s) const;
+};
+
+VelocityThirds velocity_thirds(const std::vector<ShotComparison>& shots);
+
+/// Residuals of the data that share a property.
+struct ResidualGroup {
+    std::string by;    ///< "size", "shape", "lot", "velocity_third", "use", ...
+    std::string key;   ///< its value; parts of a combination are joined by " x "
+    std::string size;  ///< the one size of all its data, or empty
+    std::string velocity_third;  ///< the one third of all its data, or empty
+    std::size_t n = 0;
+    double rms_relative = 0;
+    double mean_relative = 0;  ///< of (measured - predicted) / measured
+    double mean_standardised = 0;
+    double whitened_rms = 0;
+    std::string words{};
+};
+
+/// By size, shape, lot, velocity third and use, and by shape x size x velocity third, in
+/// order of first appearance.
+std::vector<ResidualGroup> group_residuals(const std::vector<ShotComparison>& shots,
+                                           const std::vector<std::string>& sizes);
+
+}  // namespace taylorcal::calibrate

@@ -1,0 +1,70 @@
+#include "calibrate/comparison/words.hpp"
+
+#include "calibrate/comparison/groups.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace taylorcal::calibrate {
+namespace {
+
+constexpr double clear = 2.5;  // standard errors, 1 % two-sided
+
+bool is_beyond_errors(const ResidualGroup& group) {
+    // The standard error of a root mean square of n unit normals is about 1/sqrt(2 n).
+    return group.whitened_rms > 1 + clear / std::sqrt(2 * static_cast<double>(group.n));
+}
+
+bool has_direction(const ResidualGroup& group) {
+    return !group.size.empty() &&
+           std::abs(group.mean_standardised) * std::sqrt(static_cast<double>(group.n)) >
+               clear;
+}
+
+std::string direction(const ResidualGroup& group) {
+    const bool too_small = group.mean_relative > 0;
+    if (group.size.find("diameter") != std::string::npos)
+        return too_small ? "too narrow" : "too wide";
+    return too_small ? "too short" : "too long";
+}
+
+std::string subject(const ResidualGroup& group) {
+    if (!group.size.empty()) return size_in_words(group.size);
+    if (group.by == "velocity_third") return "all sizes";
+    if (group.by == "use")
+        return group.key == use_word(Use::calibrate) ? "fitted shots" : "held-back shots";
+    std::string key = group.key;
+    for (char& c : key)
+        if (c == '_') c = ' ';
+    return group.by == "lot" ? "lot " + key : key;
+}
+
+}  // namespace
+
+std::string size_in_words(const std::string& size) {
+    if (size == "diameter_at_0p2L0_mm") return "diameter at 0.2 L0";
+    std::string words = size.substr(0, size.rfind("_mm"));
+    for (char& c : words)
+        if (c == '_') c = ' ';
+    return words;
+}
+
+std::string group_words(const ResidualGroup& group) {
+    const std::string where = group.velocity_third.empty()
+                                  ? ""
+                                  : fmt::format(" at {} velocity", group.velocity_third);
+    const std::string weight =
+        fmt::format("({} value{}, rms {:.1f} standard errors)", group.n,
+                    group.n == 1 ? "" : "s", group.whitened_rms);
+    if (has_direction(group))
+        return fmt::format("{} predicted {:.1f} % {}{} {}", subject(group),
+                           100 * std::abs(group.mean_relative), direction(group), where,
+                           weight);
+    if (is_beyond_errors(group))
+        return fmt::format("{} off by {:.1f} % rms{}, beyond the errors {}",
+                           subject(group), 100 * group.rms_relative, where, weight);
+    return fmt::format("{} within the errors{} {}", subject(group), where, weight);
+}
+
+}  // namespace taylorcal::calibrate

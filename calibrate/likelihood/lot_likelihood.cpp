@@ -1,0 +1,67 @@
+#include "calibrate/likelihood/lot_likelihood.hpp"
+
+#include "calibrate/likelihood/errors_of_shot.hpp"
+
+namespace taylorcal::calibrate {
+
+LotLikelihood::LotLikelihood(const Settings& settings, const DataSet& set,
+                             const ParameterSpace& space, const Predictor& predictor,
+                             const Eigen::VectorXd& reference)
+    : space_(space),
+      predictor_(predictor),
+      levels_(spread_levels(settings)),
+      reference_(reference),
+      lots_(set.lots.size()) {
+    const RowMatrix point = reference.transpose();
+    for (const Datum* datum : set.fitted()) {
+        const RowMatrix parameters = space.lot_parameters(point, datum->lot);
+        const Eigen::MatrixXd fixed =
+            fixed_covariance(settings, predictor, *datum, parameters.row(0).transpose());
+        lots_[datum->lot].push_back(
+            {datum->shot, ShotLikelihood(*datum, fixed, levels_)});
+        ++shots_;
+    }
+}
+
+RowMatrix LotLikelihood::operator()(std::size_t lot, const RowMatrix& parameters) const {
+    RowMatrix total = RowMatrix::Zero(parameters.rows(),
+                                      static_cast<Eigen::Index>(levels_.values.size()));
+    for (const Part& part : lots_[lot]) {
+        const RowMatrix predicted = predictor_.predict(part.shot, parameters);
+        for (Eigen::Index i = 0; i < parameters.rows(); ++i)
+            part.likelihood.add(predicted.row(i), &total(i, 0));
+    }
+    return total;
+}
+
+RowMatrix LotLikelihood::whitened(const RowMatrix& units, std::size_t level) const {
+    std::vector<Eigen::VectorXd> columns;
+    for (std::size_t lot = 0; lot < lots_.size(); ++lot) {
+        const RowMatrix parameters = space_.lot_parameters(units, lot);
+        for (const Part& part : lots_[lot]) {
+            const RowMatrix predicted = predictor_.predict(part.shot, parameters);
+            const std::size_t first = columns.size();
+            columns.resize(first + part.likelihood.size(), Eigen::VectorXd(units.rows()));
+            for (Eigen::Index i = 0; i < units.rows(); ++i) {
+                const Eigen::VectorXd r =
+                    part.likelihood.whitened(predicted.row(i).transpose(), level);
+                for (std::size_t c = first; c < columns.size(); ++c)
+                    columns[c](i) = r(static_cast<Eigen::Index>(c - first));
+            }
+        }
+    }
+    RowMatrix all(units.rows(), static_cast<Eigen::Index>(columns.size()));
+    for (std::size_t c = 0; c < columns.size(); ++c)
+        all.col(static_cast<Eigen::Index>(c)) = columns[c];
+    return all;
+}
+
+RowMatrix LotLikelihood::log_likelihood(const RowMatrix& units) const {
+    RowMatrix total =
+        RowMatrix::Zero(units.rows(), static_cast<Eigen::Index>(levels_.values.size()));
+    for (std::size_t lot = 0; lot < lots_.size(); ++lot)
+        total += (*this)(lot, space_.lot_parameters(units, lot));
+    return total;
+}
+
+}  // namespace taylorcal::calibrate

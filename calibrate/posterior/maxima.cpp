@@ -1,0 +1,84 @@
+#include "calibrate/posterior/maxima.hpp"
+
+#include "calibrate/posterior/mean_shift.hpp"
+#include "calibrate/posterior/refine.hpp"
+#include "calibrate/sampling/log_sum.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace taylorcal::calibrate {
+namespace {
+
+constexpr Eigen::Index most_points = 1500;
+constexpr double smallest_share = 0.01;
+constexpr double same_point = 0.01;  // of the priors' widths
+
+/// ln posterior density over the unit cube for each row, the spread averaged out.
+Eigen::VectorXd log_density(const LotLikelihood& likelihood, const RowMatrix& units) {
+    const RowMatrix log_likelihood = likelihood.log_likelihood(units);
+    const std::vector<double>& log_mass = likelihood.levels().log_mass;
+    Eigen::VectorXd densities(units.rows());
+    for (Eigen::Index i = 0; i < units.rows(); ++i) {
+        LogSum sum;
+        for (std::size_t g = 0; g < log_mass.size(); ++g)
+            sum.add(log_mass[g] + log_likelihood(i, static_cast<Eigen::Index>(g)));
+        densities(i) = sum.value();
+    }
+    return densities;
+}
+
+/// Every so-manieth draw, so that at most `most_points` remain.
+RowMatrix thinned(const RowMatrix& units) {
+    const Eigen::Index stride = (units.rows() + most_points - 1) / most_points;
+    RowMatrix chosen((units.rows() + stride - 1) / stride, units.cols());
+    for (Eigen::Index i = 0; i < chosen.rows(); ++i)
+        chosen.row(i) = units.row(i * stride);
+    return chosen;
+}
+
+/// Adds to the list, or to the share of a maximum that is the same point.
+void merge(std::vector<Maximum>& maxima, Maximum found) {
+    for (Maximum& other : maxima)
+        if ((other.unit - found.unit).lpNorm<Eigen::Infinity>() < same_point) {
+            const double share = other.share + found.share;
+            if (found.log_density > other.log_density) other = found;
+            other.share = share;
+            return;
+        }
+    maxima.push_back(std::move(found));
+}
+
+}  // namespace
+
+std::vector<Maximum> find_maxima(const LotLikelihood& likelihood,
+                                 const WeightedDraws& draws, double log_evidence) {
+    const RowMatrix units = thinned(draws.units);
+    const auto shared = static_cast<Eigen::Index>(likelihood.space().shared_count());
+    const RowMatrix points = shared > 0 ? RowMatrix(units.leftCols(shared)) : units;
+    const Basins basins = find_basins(points);
+    const Eigen::VectorXd densities = log_density(likelihood, units);
+    std::vector<Maximum> maxima;
+    for (Eigen::Index mode = 0; mode < basins.modes.rows(); ++mode) {
+        Eigen::Index best = -1;
+        double count = 0;
+        for (Eigen::Index i = 0; i < units.rows(); ++i) {
+            if (basins.member[static_cast<std::size_t>(i)] !=
+                static_cast<std::size_t>(mode))
+                continue;
+            ++count;
+            if (best < 0 || densities(i) > densities(best)) best = i;
+        }
+        const double share = count / static_cast<double>(units.rows());
+        if (share < smallest_share) continue;
+        const RefinedPoint refined = refine(likelihood, units.row(best).transpose());
+        const double density = log_density(likelihood, refined.unit.transpose())(0);
+        merge(maxima, {refined.unit, refined.level, density - log_evidence, share});
+    }
+    std::stable_sort(
+        maxima.begin(), maxima.end(),
+        [](const Maximum& a, const Maximum& b) { return a.log_density > b.log_density; });
+    return maxima;
+}
+
+}  // namespace taylorcal::calibrate

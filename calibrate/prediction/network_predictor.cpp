@@ -1,0 +1,162 @@
+#include "calibrate/prediction/network_predictor.hpp"
+
+#include "calibrate/prediction/shot_inputs.hpp"
+#include "common/errors.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace taylorcal::calibrate {
+namespace {
+
+constexpr Eigen::Index not_a_parameter = -1;
+
+/// Slack at the ends of a trained range, which samples seldom reach: 1 % of its span. An
+/// input that was constant in the database may differ by 5 %: rooms are not all at 295 K.
+double slack(const emulator::InputInfo& input) {
+    if (!input.used || input.lower == input.upper) return 0.05 * std::abs(input.lower);
+    return 0.01 * (input.upper - input.lower);
+}
+
+void check_prior(const Parameter& parameter, const emulator::InputInfo& input) {
+    const double margin = 1e-9 * std::abs(input.upper - input.lower);
+    require(
+        parameter.lower >= input.lower - margin &&
+            parameter.upper <= input.upper + margin,
+        fmt::format("the prior of {} ({:g} to {:g}) reaches beyond the emulator's range "
+                    "({:g} to {:g}). Narrow the prior, or widen the parameter's range in "
+                    "study.yaml so that the database covers it.",
+                    parameter.name, parameter.lower, parameter.upper, input.lower,
+                    input.upper));
+}
+
+}  // namespace
+
+NetworkPredictor::NetworkPredictor(emulator::Emulator emulator, const Settings& settings)
+    : emulator_(std::move(emulator)), sizes_(settings.fit_sizes) {
+    bind_inputs(settings);
+    for (const std::string& size : sizes_)
+        outputs_.push_back(emulator_.output_index(size));
+}
+
+void NetworkPredictor::bind_inputs(const Settings& settings) {
+    const auto& inputs = emulator_.inputs();
+    parameter_of_input_.assign(inputs.size(), not_a_parameter);
+    for (std::size_t j = 0; j < settings.parameters.size(); ++j) {
+        const Parameter& parameter = settings.parameters[j];
+        const auto i = static_cast<std::size_t>(emulator_.input_index(parameter.name));
+        require(
+            !is_shot_input(parameter.name),
+            fmt::format("{} cannot be calibrated: it comes from the measurement table.",
+                        parameter.name));
+        check_prior(parameter, inputs[i]);
+        parameter_of_input_[i] = static_cast<Eigen::Index>(j);
+    }
+    for (std::size_t i = 0; i < inputs.size(); ++i)
+        require(
+            parameter_of_input_[i] != not_a_parameter || is_shot_input(inputs[i].name) ||
+                !inputs[i].used,
+            fmt::format("the emulator takes {}, which is neither measured nor among the "
+                        "calibrated parameters. Add it to the parameters, or train "
+                        "without it.",
+                        inputs[i].name));
+}
+
+const emulator::InputInfo& NetworkPredictor::velocity() const {
+    return emulator_
+        .inputs()[static_cast<std::size_t>(emulator_.input_index("velocity_m_s"))];
+}
+
+double NetworkPredictor::lowest_velocity_m_s() const { return velocity().lower; }
+
+double NetworkPredictor::highest_velocity_m_s() const { return velocity().upper; }
+
+Eigen::VectorXd NetworkPredictor::shot_point(const Shot& shot) const {
+    const auto& inputs = emulator_.inputs();
+    Eigen::VectorXd point(static_cast<Eigen::Index>(inputs.size()));
+    for (std::size_t i = 0; i < inputs.size(); ++i)
+        point(static_cast<Eigen::Index>(i)) = is_shot_input(inputs[i].name)
+                                                  ? shot_input(inputs[i].name, shot)
+                                                  : inputs[i].lower;
+    return point;
+}
+
+RowMatrix NetworkPredictor::predict(const Shot& shot, const RowMatrix& parameters) const {
+    thread_local emulator::Workspace workspace;
+    thread_local emulator::Block points, results;
+    const Eigen::VectorXd base = shot_point(shot);
+    points.resize(base.size(), parameters.rows());
+    for (std::size_t i = 0; i < parameter_of_input_.size(); ++i) {
+        const auto row = static_cast<Eigen::Index>(i);
+        if (parameter_of_input_[i] == not_a_parameter)
+            points.row(row).setConstant(static_cast<float>(base(row)));
+        else
+            points.row(row) =
+                parameters.col(parameter_of_input_[i]).transpose().cast<float>().array();
+    }
+    emulator_.evaluate(points, emulator_.category_index(shot.shape), results, workspace);
+    RowMatrix predicted(parameters.rows(), static_cast<Eigen::Index>(outputs_.size()));
+    for (std::size_t c = 0; c < outputs_.size(); ++c)
+        predicted.col(static_cast<Eigen::Index>(c)) =
+            results.row(outputs_[c]).transpose().cast<double>().matrix();
+    return predicted;
+}
+
+Eigen::MatrixXd NetworkPredictor::error_covariance(const Shot& shot) const {
+    const emulator::Covariance& source = emulator_.covariance(shot.shape);
+    const auto n = static_cast<Eigen::Index>(sizes_.size());
+    const Eigen::VectorXd point = shot_point(shot);
+    std::vector<Eigen::Index> at;
+    Eigen::VectorXd scale(n);
+    for (std::size_t c = 0; c < sizes_.size(); ++c) {
+        const auto found =
+            std::find(source.outputs.begin(), source.outputs.end(), sizes_[c]);
+        at.push_back(found == source.outputs.end() ? -1 : found - source.outputs.begin());
+        scale(static_cast<Eigen::Index>(c)) = emulator_.divisor(outputs_[c], point);
+    }
+    Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(n, n);
+    for (Eigen::Index i = 0; i < n; ++i)
+        for (Eigen::Index j = 0; j < n; ++j) {
+            const Eigen::Index a = at[static_cast<std::size_t>(i)];
+            const Eigen::Index b = at[static_cast<std::size_t>(j)];
+            if (a >= 0 && b >= 0)
+                covariance(i, j) = source.matrix(a, b) * scale(i) * scale(j);
+        }
+    return covariance;
+}
+
+void NetworkPredictor::check_ranges(const DataSet& set) const {
+    for (const Datum& datum : set.data) {
+        const Shot& shot = datum.shot;
+        for (const emulator::InputInfo& input : emulator_.inputs()) {
+            if (!is_shot_input(input.name)) continue;
+            const double value = shot_input(input.name, shot);
+            require(
+                value >= input.lower - slack(input) &&
+                    value <= input.upper + slack(input),
+                fmt::format("shot {}: {} = {:g} is beyond the emulator's range {:g} to "
+                            "{:g}. Widen the database's range in study.yaml, or set the "
+                            "shot's use to ignore.",
+                            shot.id, input.name, value, input.lower, input.upper));
+        }
+        const auto& shapes = emulator_.category().values;
+        require(
+            shapes.empty() ||
+                std::find(shapes.begin(), shapes.end(), shot.shape) != shapes.end(),
+            fmt::format("shot {}: the emulator was not trained on the shape {}. Add the "
+                        "shape to the database in study.yaml, or set the shot's use to "
+                        "ignore.",
+                        shot.id, shot.shape));
+        const auto& known = emulator_.covariance(shot.shape).outputs;
+        for (const Eigen::Index column : datum.columns) {
+            const std::string& size = sizes_[static_cast<std::size_t>(column)];
+            require(std::find(known.begin(), known.end(), size) != known.end(),
+                    fmt::format("shot {}: the emulator has no {} for {}. Remove the size "
+                                "from fit_sizes, or empty the cell.",
+                                shot.id, size, shot.shape));
+        }
+    }
+}
+
+}  // namespace taylorcal::calibrate

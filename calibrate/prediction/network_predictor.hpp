@@ -1,0 +1,40 @@
+#pragma once
+
+#include "calibrate/measurements/data_set.hpp"
+#include "calibrate/prediction/predictor.hpp"
+#include "calibrate/settings/settings.hpp"
+#include "emulator/inference/emulator.hpp"
+
+#include <vector>
+
+namespace taylorcal::calibrate {
+
+/// The network as the model: velocity, geometry, temperature and shape come from the
+/// shot, everything else that it takes from the calibrated parameters.
+class NetworkPredictor final : public Predictor {
+  public:
+    /// InputError unless every parameter is an input whose range holds its prior, every
+    /// other input is known and every fitted size is an output.
+    NetworkPredictor(emulator::Emulator emulator, const Settings& settings);
+
+    RowMatrix predict(const Shot& shot, const RowMatrix& parameters) const override;
+    Eigen::MatrixXd error_covariance(const Shot& shot) const override;
+    double lowest_velocity_m_s() const override;
+    double highest_velocity_m_s() const override;
+
+    /// InputError naming shot, value, range and remedy if a shot that is fitted or held
+    /// back lies outside what the network was trained on.
+    void check_ranges(const DataSet& set) const;
+
+  private:
+    void bind_inputs(const Settings& settings);
+    Eigen::VectorXd shot_point(const Shot& shot) const;
+    const emulator::InputInfo& velocity() const;
+
+    emulator::Emulator emulator_;
+    std::vector<Eigen::Index> parameter_of_input_;  // not_a_parameter: from the shot
+    std::vector<std::string> sizes_;
+    std::vector<int> outputs_;  // of the fitted sizes
+};
+
+}  // namespace taylorcal::calibrate

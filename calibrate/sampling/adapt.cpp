@@ -1,0 +1,115 @@
+#include "calibrate/sampling/adapt.hpp"
+
+#include "calibrate/sampling/block_pass.hpp"
+#include "calibrate/sampling/draw_weights.hpp"
+#include "calibrate/sampling/fit_proposal.hpp"
+#include "common/errors.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <spdlog/spdlog.h>
+
+namespace taylorcal::calibrate {
+namespace {
+
+constexpr std::uint64_t most_passes = 25;
+constexpr double effective_share = 0.1;  // of the draws, to fit a proposal to
+
+DrawTable evaluate_pass(const Pass& pass) {
+    std::vector<DrawTable> tables;
+    run_pass(
+        pass, [](DrawTable table) { return table; },
+        [&tables](DrawTable table) { tables.push_back(std::move(table)); });
+    return join(tables);
+}
+
+/// The largest power up to 1 of the likelihood that leaves `wanted` effective draws.
+double largest_power(const DrawTable& table, const SpreadLevels& levels, double wanted) {
+    if (DrawWeights(table, levels).effective_size() >= wanted) return 1;
+    double low = -14, high = 0;  // log2 of the power
+    for (int i = 0; i < 20; ++i) {
+        const double middle = 0.5 * (low + high);
+        const DrawWeights weights(table, levels, std::exp2(middle));
+        (weights.effective_size() >= wanted ? low : high) = middle;
+    }
+    return std::exp2(low);
+}
+
+/// The point of the unit cube with the largest likelihood times spread prior.
+Eigen::VectorXd best_point(const DrawTable& table, const SpreadLevels& levels,
+                           const ParameterSpace& space) {
+    double best = -std::numeric_limits<double>::infinity();
+    Eigen::VectorXd point =
+        Eigen::VectorXd::Constant(static_cast<Eigen::Index>(space.size()), 0.5);
+    for (Eigen::Index k = 0; k < table.draws(); ++k) {
+        if (!std::isfinite(table.log_shared(k))) continue;
+        for (std::size_t g = 0; g < levels.values.size(); ++g) {
+            double total = levels.log_mass[g];
+            Eigen::VectorXd candidate(point.size());
+            candidate.head(table.shared.cols()) = table.shared.row(k).transpose();
+            for (std::size_t lot = 0; lot < table.own.size(); ++lot) {
+                const Eigen::Index from = k * table.inner;
+                Eigen::VectorXd inner = table.log_likelihood[lot]
+                                            .col(static_cast<Eigen::Index>(g))
+                                            .segment(from, table.inner);
+                for (Eigen::Index m = 0; m < table.inner; ++m)
+                    if (!std::isfinite(table.log_own[lot](from + m)))
+                        inner(m) = -std::numeric_limits<double>::infinity();
+                Eigen::Index m = 0;
+                total += inner.maxCoeff(&m);
+                candidate.segment(static_cast<Eigen::Index>(space.lot_offset(lot)),
+                                  table.own[lot].cols()) =
+                    table.own[lot].row(from + m).transpose();
+            }
+            if (total > best) {
+                best = total;
+                point = candidate;
+            }
+        }
+    }
+    return point;
+}
+
+}  // namespace
+
+Adaptation adapt(const Settings& settings, const DataSet& set,
+                 const ParameterSpace& space, const Predictor& predictor, int threads) {
+    const std::uint64_t draws = std::clamp<std::uint64_t>(settings.draws / 10, 500, 2000);
+    const double wanted = effective_share * static_cast<double>(draws);
+    Adaptation result{
+        Proposal(space),
+        Eigen::VectorXd::Constant(static_cast<Eigen::Index>(space.size()), 0.5), 0, 0};
+    double last_power = 0;
+    while (result.passes < most_passes) {
+        ++result.passes;
+        const LotLikelihood likelihood(settings, set, space, predictor, result.reference);
+        const DrawNumbers numbers(settings.seed, result.passes);
+        const DrawTable table = evaluate_pass({likelihood, result.proposal, numbers,
+                                               draws, settings.draws_per_lot, threads});
+        result.predictions +=
+            draws * static_cast<std::uint64_t>(table.inner) * likelihood.shots();
+        const SpreadLevels& levels = likelihood.levels();
+        const double effective = DrawWeights(table, levels).effective_size();
+        result.reference = best_point(table, levels, space);
+        const double scale =
+            static_cast<double>(settings.draws) / static_cast<double>(draws);
+        if (result.passes == 1 && effective * scale >= 2 * enough_draws) break;
+        const double power = largest_power(table, levels, wanted);
+        spdlog::info(
+            "pass {}: {:.0f} effective of {} draws, likelihood to the power {:.3g}",
+            result.passes, effective, draws, power);
+        const DrawWeights weights(table, levels, power);
+        if (!std::isfinite(weights.log_weights().maxCoeff()))
+            throw NumericalError(
+                "no draw has a likelihood above zero: the predictions are "
+                "not finite or the priors exclude every measurement");
+        result.proposal = fit_proposal(table, weights, numbers);
+        if (power == 1 && last_power == 1) break;
+        last_power = power;
+    }
+    return result;
+}
+
+}  // namespace taylorcal::calibrate

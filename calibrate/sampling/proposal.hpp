@@ -1,0 +1,40 @@
+#pragma once
+
+#include "calibrate/sampling/heavy_tail.hpp"
+#include "calibrate/sampling/parameter_space.hpp"
+
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace taylorcal::calibrate {
+
+/// Where draws come from: the shared parameters from one mixture; then, given them, each
+/// lot's own parameters from bells whose centres follow the shared ones linearly.
+class Proposal {
+  public:
+    /// A lot's own parameters near one part of the shared mixture.
+    struct Regression {
+        Eigen::MatrixXd slope;  ///< d(own)/d(shared)
+        HeavyTail bell;         ///< centred for shared parameters at the part's mean
+    };
+
+    /// The prior.
+    explicit Proposal(const ParameterSpace& space);
+    /// `regressions[lot][part]`, parts as in `shared`.
+    Proposal(Mixture shared, std::vector<std::vector<Regression>> regressions,
+             double prior_share);
+
+    const Mixture& shared() const { return shared_; }
+    /// The distribution of a lot's own parameters given the shared ones.
+    Mixture own(std::size_t lot, const Eigen::VectorXd& shared) const;
+    bool is_prior() const { return shared_.is_prior(); }
+
+  private:
+    Mixture shared_;
+    Eigen::Index own_dimension_;
+    std::vector<std::vector<Regression>> regressions_;
+    double prior_share_ = 1;
+};
+
+}  // namespace taylorcal::calibrate

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace taylorcal::calibrate {
+
+/// A calibrated parameter with its prior.
+struct Parameter {
+    std::string name;
+    double lower = 0;
+    double upper = 1;
+    bool log_uniform = false;  ///< uniform in the logarithm instead of in the value
+    bool per_lot = false;      ///< one value a lot of metal instead of one for all
+};
+
+/// Relative spread that no other error explains, with a half-normal prior.
+struct UnexplainedSpread {
+    double prior_scale = 0.02;
+    std::vector<double> grid;  ///< values over which it is marginalised, rising
+};
+
+/// `full`: every error with its covariance. `paper`: one sigma for all relative
+/// deviations.
+enum class LikelihoodForm { full, paper };
+
+/// The configuration of `calibrate sample` and `calibrate compare` (calibrate.json).
+struct Settings {
+    std::vector<Parameter> parameters;
+    std::vector<std::string> fit_sizes;
+    LikelihoodForm likelihood = LikelihoodForm::full;
+    double velocity_sd_relative = 0.01;
+    std::optional<UnexplainedSpread> unexplained_spread;
+    std::uint64_t draws = 20000;       ///< of the shared parameters
+    std::uint64_t draws_per_lot = 32;  ///< of a lot's own parameters, for each of them
+    std::uint64_t seed = 1;
+    std::uint64_t kept_draws = 4000;  ///< equally weighted, written to the file
+    nlohmann::json source;            ///< as read, for provenance
+};
+
+/// Reads calibrate.json strictly. InputError names the file, the key and the remedy.
+Settings read_settings(const std::filesystem::path& path);
+Settings parse_settings(const nlohmann::json& json, const std::string& where);
+
+}  // namespace taylorcal::calibrate

@@ -13,4 +13,4 @@ rule compare:
         "results/{study}/benchmarks/compare.tsv"
     shell:
         "{input.program} compare --posterior {input.posterior} --emulator {input.emulator}"
-        " --measurements {input.measurements} --config {input.settings} --out {output} 2> {log}"
+        " --measurements {input.measurements} --config {input.settings} --out {output} > {log} 2>&1"

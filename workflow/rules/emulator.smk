@@ -12,4 +12,4 @@ rule train:
     threads: workflow.cores
     shell:
         "{input.program} train {input.database} --config {input.settings} --out {output}"
-        " --threads {threads} 2> {log}"
+        " --threads {threads} > {log} 2>&1"

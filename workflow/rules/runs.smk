@@ -17,7 +17,7 @@ rule runs:
     threads: workflow.cores
     shell:
         "{input.program} batch {input.design} --config {input.settings} --out {output}"
-        " --rows {params.rows} --threads {threads} 2> {log}"
+        " --rows {params.rows} --threads {threads} > {log} 2>&1"
 
 
 rule merge:
@@ -31,4 +31,4 @@ rule merge:
     benchmark:
         "results/{study}/benchmarks/merge.tsv"
     shell:
-        "{input.program} merge {input.chunks} --out {output} 2> {log}"
+        "{input.program} merge {input.chunks} --out {output} > {log} 2>&1"

@@ -13,4 +13,4 @@ rule sample:
     threads: workflow.cores
     shell:
         "{input.program} sample --emulator {input.emulator} --measurements {input.measurements}"
-        " --config {input.settings} --out {output} --threads {threads} 2> {log}"
+        " --config {input.settings} --out {output} --threads {threads} > {log} 2>&1"

@@ -7,6 +7,7 @@ import argparse
 import json
 from pathlib import Path
 
+MOST_FINDINGS = 5
 USE_WORDS = {"calibrate": "fitted", "validate": "held back"}
 
 
@@ -26,9 +27,11 @@ def summary(results: Path) -> str:
     for use, misfit in comparison["misfit"].items():
         if misfit["n"]:
             lines.append(
-                f"misfit, {USE_WORDS.get(use, use)}: {100 * misfit['rms_relative']:.2f} % root "
-                f"mean square, {misfit['whitened_rms']:.2f} standard errors, {misfit['n']} data"
+                f"misfit, {USE_WORDS[use]}: {100 * misfit['rms_relative']:.2f} % root mean square, "
+                f"{misfit['whitened_rms']:.2f} standard errors, {misfit['n']} data"
             )
+    lines += ["", "what stands out:" if comparison["findings"] else "nothing stands out"]
+    lines += [f"  {words}" for words in comparison["findings"][:MOST_FINDINGS]]
     return "\n".join([*lines, "", f"report: {results / 'report.html'}"])
 
 

@@ -2,16 +2,15 @@
 
 import math
 
-from markupsafe import Markup
+from markupsafe import Markup, escape
 
 from report.results import Results
-from report.words import PARAMETER_SYMBOLS, SHAPE_WORDS, THIRD_WORDS, UNIT_WORDS
+from report.words import PARAMETER_SYMBOLS, SHAPE_WORDS, UNIT_WORDS
 from report.words import counted, listed, lot_words
 from report.words import number, parameter_words, percent, size_words, split_name
 
 ODD_DATUM = 3.0  # standard errors from which a single datum is listed
-LACK_OF_FIT = 1.5  # whitened root mean square from which a group is named as failing
-FEWEST_DATA = 3  # of a group that is named
+STEERING = 0.5  # posterior standard deviations from which a shot is said to steer the result
 
 
 def parameter_rows(results: Results) -> list[dict]:
@@ -104,42 +103,11 @@ def _misfit_sentence(results: Results, use: str) -> Markup:
     )
 
 
-def failing_groups(results: Results, most: int = 5) -> list[dict]:
-    """The groups that deviate most, judged in standard errors."""
-    found = [
-        group
-        for group in results.comparison["groups"]
-        if group["by"] != "use"
-        and group["n"] >= FEWEST_DATA
-        and group["whitened_rms"] >= LACK_OF_FIT
-    ]
-    found.sort(key=lambda group: -group["whitened_rms"])
-    return [{**group, "label": group_label(group)} for group in found[:most]]
-
-
-def group_label(group: dict) -> str:
-    key = group["key"]
-    parts = key.split(" x ") if isinstance(key, str) else key
-    words = []
-    for part in parts:
-        if part in SHAPE_WORDS:
-            words.append(SHAPE_WORDS[part])
-        elif part in THIRD_WORDS:
-            words.append(THIRD_WORDS[part])
-        else:
-            words.append(size_words(part) if part.endswith("_mm") else f"lot {lot_words(part)}")
-    return ", ".join(words)
-
-
 def _failure_sentence(results: Results) -> Markup:
-    groups = failing_groups(results, 3)
-    if not groups:
-        return Markup(
-            "No lot, size, shape or range of velocities deviates by more than "
-            f"{LACK_OF_FIT} standard errors."
-        )
-    named = [f"{group['label']} ({group['whitened_rms']:.1f} standard errors)" for group in groups]
-    return Markup(f"It fails most in {listed(named)}.")
+    found = results.comparison["findings"]
+    if not found:
+        return Markup("No lot, size, shape or range of velocities deviates beyond its errors.")
+    return Markup(f"It fails most here: {'; '.join(map(str, map(escape, found[:3])))}.")
 
 
 def odd_data(results: Results) -> list[dict]:
@@ -160,6 +128,20 @@ def odd_data(results: Results) -> list[dict]:
         if abs(cell["whitened"]) > ODD_DATUM
     ]
     return sorted(found, key=lambda datum: -abs(datum["whitened"]))
+
+
+def steering_shots(results: Results) -> list[dict]:
+    """Shots without which a parameter would move noticeably."""
+    found = [
+        {
+            "id": entry["id"],
+            "shift": f"{entry['largest_shift_sd']:.1f}",
+            "parameter": parameter_words(entry["parameter"]),
+        }
+        for entry in results.comparison["influence"]
+        if entry["largest_shift_sd"] > STEERING
+    ]
+    return sorted(found, key=lambda shot: -float(shot["shift"]))
 
 
 def lot_rows(results: Results) -> list[dict]:

@@ -9,6 +9,7 @@ from report.words import SHAPE_WORDS, THIRD_WORDS, lot_words, sentence_case
 from report.words import signed_percent, size_words
 
 USE_SYMBOL = {"calibrate": {}, "validate": {"hollow": True}, "ignore": {"symbol": "cross"}}
+FULL_COLOUR = 4.0  # mean deviation in standard errors that gets the full colour
 USE_WORDS = {"calibrate": "fitted", "validate": "held back", "ignore": "left out"}
 
 
@@ -236,9 +237,9 @@ def residual_chart(results: Results) -> Chart:
         "residuals",
         "By size and velocity",
         "Mean deviation of the measurement from the model for each size and third of the "
-        "velocities. Orange: measured larger than the model; blue: smaller. The second line gives "
-        "the deviation in standard errors (whitened root mean square; 1 is what the errors "
-        "explain) and the number of data.",
+        "velocities. Orange: measured larger than the model; blue: smaller; the stronger, the more "
+        "standard errors. The second line gives the root mean square in standard errors "
+        "(whitened; 1 is what the errors explain) and the number of data.",
         names,
         [THIRD_WORDS[third] for third in thirds],
         cells,
@@ -266,9 +267,11 @@ def lot_residual_chart(results: Results) -> Chart:
     def summary(entries):
         if not entries:
             return None
+        relative = [c["residual"] / c["measured"] for c in entries if c["measured"]]
         return {
             "n": len(entries),
-            "mean_relative": mean(c["measured"] / c["predicted"] - 1 for c in entries),
+            "mean_relative": mean(relative) if relative else None,
+            "mean_standardised": mean(c["standardised"] for c in entries),
             "whitened_rms": mean(c["whitened"] ** 2 for c in entries) ** 0.5,
         }
 
@@ -283,7 +286,7 @@ def lot_residual_chart(results: Results) -> Chart:
 
 
 def _cell_chart(name, title, caption, rows, columns, cells) -> Chart:
-    values = [[cell and cell["mean_relative"] for cell in row] for row in cells]
+    values = [[cell and cell["mean_standardised"] for cell in row] for row in cells]
     texts = [
         [
             (
@@ -296,8 +299,7 @@ def _cell_chart(name, title, caption, rows, columns, cells) -> Chart:
         ]
         for row in cells
     ]
-    known = [abs(value) for row in values for value in row if value is not None]
-    panel = Panel([Cells(rows, columns, values, texts, limit=max(known, default=0) or 1)])
+    panel = Panel([Cells(rows, columns, values, texts, limit=FULL_COLOUR)])
     height = 40 + 46 * len(rows)
     return Chart(name, title, caption, [panel], columns=1, row_height=height)
 

@@ -74,11 +74,15 @@ def sentence_case(text: str) -> str:
     return text[:1].upper() + text[1:]
 
 
-def percent(share: float, digits: int = 1) -> str:
+def percent(share: float | None, digits: int = 1) -> str:
+    if share is None:
+        return "–"
     return f"{100 * share:.{digits}f} %".replace("-", "−")
 
 
-def signed_percent(share: float, digits: int = 1) -> str:
+def signed_percent(share: float | None, digits: int = 1) -> str:
+    if share is None:
+        return "–"
     return f"{100 * share:+.{digits}f} %".replace("-", "−")
 
 

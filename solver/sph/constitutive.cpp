@@ -1,0 +1,251 @@
+#include "solver/sph/constitutive.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace taylorcal::sph {
+
+namespace {
+
+/// The least principal stretch from below: 1/sqrt of a bound on the largest eigenvalue of
+/// F^-1 F^-T, by the Frobenius norm of its square (at most 15 % short, for F = 1).
+Vector least_stretch(const Vector (&inverse)[9]) {
+    Vector a[6];  // F^-1 F^-T: xx yy zz xy xz yz
+    const auto row_product = [&](int i, int j) -> Vector {
+        return inverse[3 * i] * inverse[3 * j] + inverse[3 * i + 1] * inverse[3 * j + 1] +
+               inverse[3 * i + 2] * inverse[3 * j + 2];
+    };
+    a[0] = row_product(0, 0);
+    a[1] = row_product(1, 1);
+    a[2] = row_product(2, 2);
+    a[3] = row_product(0, 1);
+    a[4] = row_product(0, 2);
+    a[5] = row_product(1, 2);
+    const Vector xx = a[0] * a[0] + a[3] * a[3] + a[4] * a[4];
+    const Vector yy = a[3] * a[3] + a[1] * a[1] + a[5] * a[5];
+    const Vector zz = a[4] * a[4] + a[5] * a[5] + a[2] * a[2];
+    const Vector xy = a[0] * a[3] + a[3] * a[1] + a[4] * a[5];
+    const Vector xz = a[0] * a[4] + a[3] * a[5] + a[4] * a[2];
+    const Vector yz = a[3] * a[4] + a[1] * a[5] + a[5] * a[2];
+    const Vector squares =
+        xx * xx + yy * yy + zz * zz + 2 * (xy * xy + xz * xz + yz * yz);
+    return material::lane_inverse_sqrt(material::lane_sqrt(material::lane_sqrt(squares)));
+}
+
+/// S : D for a deviator and a velocity gradient.
+Vector power(const Vector (&s)[6], const Vector (&l)[9]) {
+    return s[0] * l[0] + s[1] * l[4] + s[2] * l[8] + s[3] * (l[1] + l[3]) +
+           s[4] * (l[2] + l[6]) + s[5] * (l[5] + l[7]);
+}
+
+/// J sigma F^-T, with sigma = S - p I.
+void first_piola_kirchhoff(const Vector (&s)[6], const Vector& pressure, const Vector& j,
+                           const Vector (&inverse)[9], Vector (&stress)[9]) {
+    const Vector sigma[9] = {s[0] - pressure, s[3], s[4], s[3],
+                             s[1] - pressure, s[5], s[4], s[5],
+                             s[2] - pressure};
+    const Vector transposed[9] = {inverse[0], inverse[3], inverse[6],
+                                  inverse[1], inverse[4], inverse[7],
+                                  inverse[2], inverse[5], inverse[8]};
+    multiply(sigma, transposed, stress);
+    for (Vector& component : stress) component *= j;
+}
+
+double sum(const Vector& v) {
+    double total = 0;
+    for (std::size_t k = 0; k < block_size; ++k) total += static_cast<double>(v[k]);
+    return total;
+}
+
+}  // namespace
+
+Rest rest_state(const material::EquationOfState& equation_of_state, double temperature) {
+    const double density = equation_of_state.density_at_temperature(temperature);
+    const double energy = equation_of_state.energy_at_temperature(temperature);
+    return {density, energy, equation_of_state.at(density, energy)};
+}
+
+Constitutive::Constitutive(const impact::ImpactCase& impact_case, const Packing& packing,
+                           const material::EquationOfState& equation_of_state,
+                           const Rest& rest,
+                           std::unique_ptr<material::Strength<float>> strength)
+    : packing_(packing),
+      equation_of_state_(equation_of_state),
+      strength_(std::move(strength)),
+      grains_(static_cast<std::size_t>(impact_case.numerics.grains_per_point)),
+      rest_(rest),
+      shear_ratio_(material::shear_modulus(1, impact_case.material.poisson_ratio)),
+      taylor_quinney_(static_cast<float>(impact_case.material.taylor_quinney)),
+      linear_viscosity_(static_cast<float>(impact_case.numerics.linear_viscosity)),
+      quadratic_viscosity_(static_cast<float>(impact_case.numerics.quadratic_viscosity)) {
+}
+
+StepReport Constitutive::initialise(Particles& particles) const {
+    for (const std::size_t block : packing_.active) {
+        for (std::size_t k = 0; k < block_size; ++k) {
+            particles.energy[block * block_size + k] = rest_.energy;
+        }
+        particles.temperature[block] =
+            material::broadcast(static_cast<float>(rest_.state.temperature));
+        particles.bulk_modulus[block] =
+            material::broadcast(static_cast<float>(rest_.state.bulk_modulus));
+        particles.density[block] = material::broadcast(static_cast<float>(rest_.density));
+    }
+    const double modulus = rest_.state.bulk_modulus * (1 + 4.0 / 3 * shear_ratio_);
+    return {packing_.edge / std::sqrt(modulus / rest_.density), 1, 1, true};
+}
+
+Constitutive::Response Constitutive::strength_response(std::size_t index,
+                                                       const Particles& particles,
+                                                       const Vector (&gradient)[9],
+                                                       const Vector& density, double dt) {
+    const std::size_t block = packing_.active[index];
+    material::BlockInput<float> input;
+    std::copy(std::begin(gradient), std::end(gradient), input.velocity_gradient);
+    input.density = density;
+    input.temperature = particles.temperature[block];
+    input.shear_modulus =
+        static_cast<float>(shear_ratio_) * particles.bulk_modulus[block];
+    input.time_step = static_cast<float>(dt);
+    Response mean{};
+    for (std::size_t g = 0; g < grains_; ++g) {
+        material::BlockOutput<float> output;
+        strength_->update(index * grains_ + g, input, output);
+        for (int c = 0; c < 6; ++c) mean.deviator[c] += output.stress_deviator[c];
+        mean.plastic_power += output.plastic_power;
+    }
+    const float share = 1.0f / static_cast<float>(grains_);
+    for (Vector& component : mean.deviator) component *= share;
+    mean.plastic_power *= share;
+    return mean;
+}
+
+/// rho dE/dt = -P div v + heating, with the pressure averaged over the step.
+void Constitutive::close_energy(Particles& particles, std::size_t block,
+                                const Vector& dilatation, const Vector& density,
+                                const Vector& heating, double dt) const {
+    for (std::size_t k = 0; k < block_size; ++k) {
+        const std::size_t slot = block * block_size + k;
+        if (packing_.volume[slot] <= 0) continue;
+        const double after = static_cast<double>(density[k]);
+        const double before = static_cast<double>(particles.density[block][k]);
+        const double share = dt / (0.5 * (before + after));
+        const double div = static_cast<double>(dilatation[k]);
+        const double old_pressure = static_cast<double>(particles.pressure[block][k]);
+        double& energy = particles.energy[slot];
+        energy += share * (static_cast<double>(heating[k]) - old_pressure * div);
+        const material::ThermoState state = equation_of_state_.at(after, energy);
+        energy -= 0.5 * share * (state.pressure - old_pressure) * div;
+        particles.pressure[block][k] = static_cast<float>(state.pressure);
+        particles.temperature[block][k] = static_cast<float>(state.temperature);
+        particles.bulk_modulus[block][k] = static_cast<float>(state.bulk_modulus);
+    }
+    particles.density[block] = density;
+}
+
+StepReport Constitutive::update(Particles& particles, const Reference& reference,
+                                double dt) {
+    const auto step = static_cast<float>(dt);
+    const auto rho0 = static_cast<float>(rest_.density);
+    const auto edge = static_cast<float>(packing_.edge);
+    const auto stiffness = static_cast<float>(1 + 4.0 / 3 * shear_ratio_);
+    Vector least_time = material::broadcast(1.0f);
+    Vector least_ratio = material::broadcast(1.0f);
+    Vector largest_ratio = material::broadcast(1.0f);
+    for (std::size_t index = 0; index < packing_.active.size(); ++index) {
+        const std::size_t block = packing_.active[index];
+        Vector end[9], middle[9], rate[9], gradient[9], inverse[9];
+        for (std::size_t c = 0; c < 9; ++c) {
+            rate[c] = particles.rate[c][block];
+            double* f = particles.deformation[c].data() + block * block_size;
+            for (std::size_t k = 0; k < block_size; ++k) {
+                f[k] += dt * static_cast<double>(rate[c][k]);
+            }
+            end[c] = rounded(f);
+            middle[c] = end[c] - 0.5f * step * rate[c];
+        }
+        const Vector middle_ratio = invert(middle, inverse);
+        multiply(rate, inverse, gradient);
+        const Vector ratio = invert(end, inverse);
+        const Vector density = rho0 * material::lane_inverse(ratio);
+        const Vector dilatation = gradient[0] + gradient[4] + gradient[8];
+
+        const Response response =
+            strength_response(index, particles, gradient, density, dt);
+        const Vector spacing = edge * least_stretch(inverse);
+        const Vector sound_speed = material::lane_sqrt(
+            stiffness * particles.bulk_modulus[block] * material::lane_inverse(density));
+        const Vector closing = material::lane_max(-dilatation, Vector{});
+        const Vector viscosity =
+            density * spacing * closing *
+            (quadratic_viscosity_ * spacing * closing + linear_viscosity_ * sound_speed);
+
+        const Vector hourglass = particles.hourglass_heating[block];
+        const Vector heating = taylor_quinney_ * response.plastic_power +
+                               viscosity * closing +
+                               hourglass * material::lane_inverse(middle_ratio);
+        close_energy(particles, block, dilatation, density, heating, dt);
+
+        Vector mean[6];
+        for (std::size_t c = 0; c < 6; ++c) {
+            mean[c] = 0.5f * (particles.stress_deviator[c][block] + response.deviator[c]);
+            particles.stress_deviator[c][block] = response.deviator[c];
+        }
+        Vector stress[9];
+        first_piola_kirchhoff(response.deviator, particles.pressure[block] + viscosity,
+                              ratio, inverse, stress);
+        reference.store_pull(particles, block, stress);
+
+        const Vector volume = reference.volume()[block];
+        const Vector volume_step = volume * middle_ratio * step;
+        const double plastic = sum(volume_step * response.plastic_power);
+        work_.plastic += plastic;
+        work_.stored_in_shear += sum(volume_step * power(mean, gradient)) -
+                                 static_cast<double>(taylor_quinney_) * plastic;
+        work_.viscous += sum(volume_step * viscosity * closing);
+        work_.hourglass += sum(volume * step * hourglass);
+
+        const Vector time = spacing * material::lane_inverse(sound_speed);
+        // A comparison with NaN is false: written so that NaN is kept, not passed over.
+        least_time = time >= least_time ? least_time : time;
+        least_ratio = ratio >= least_ratio ? least_ratio : ratio;
+        largest_ratio = ratio <= largest_ratio ? largest_ratio : ratio;
+    }
+    StepReport report{INFINITY, INFINITY, 0, true};
+    for (std::size_t k = 0; k < block_size; ++k) {
+        report.finite = report.finite && std::isfinite(least_time[k]);
+        report.sound_time =
+            std::min(report.sound_time, static_cast<double>(least_time[k]));
+        report.least_volume_ratio =
+            std::min(report.least_volume_ratio, static_cast<double>(least_ratio[k]));
+        report.largest_volume_ratio =
+            std::max(report.largest_volume_ratio, static_cast<double>(largest_ratio[k]));
+    }
+    return report;
+}
+
+material::GrainState Constitutive::state(std::size_t index, std::size_t lane) const {
+    material::GrainState mean;
+    for (std::size_t g = 0; g < grains_; ++g) {
+        const material::GrainState s =
+            strength_->state((index * grains_ + g) * block_size + lane);
+        mean.equivalent_plastic_strain += s.equivalent_plastic_strain;
+        mean.slip_resistance_Pa += s.slip_resistance_Pa;
+        mean.mobile_density_m2 += s.mobile_density_m2;
+        mean.immobile_density_m2 += s.immobile_density_m2;
+        mean.annihilated_energy_J_m3 += s.annihilated_energy_J_m3;
+        mean.grain_diameter_m += s.grain_diameter_m;
+        mean.weakened_fraction += s.weakened_fraction;
+        mean.elastic_shear_energy_J_m3 += s.elastic_shear_energy_J_m3;
+    }
+    const double share = 1 / static_cast<double>(grains_);
+    for (double* value : {&mean.equivalent_plastic_strain, &mean.slip_resistance_Pa,
+                          &mean.mobile_density_m2, &mean.immobile_density_m2,
+                          &mean.annihilated_energy_J_m3, &mean.grain_diameter_m,
+                          &mean.weakened_fraction, &mean.elastic_shear_energy_J_m3}) {
+        *value *= share;
+    }
+    return mean;
+}
+
+}  // namespace taylorcal::sph

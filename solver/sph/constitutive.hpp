@@ -1,0 +1,78 @@
+#pragma once
+
+#include "solver/impact/impact_case.hpp"
+#include "solver/material/equation_of_state.hpp"
+#include "solver/material/strength.hpp"
+#include "solver/sph/reference.hpp"
+
+#include <memory>
+
+namespace taylorcal::sph {
+
+/// Work done on the specimen since the start [J].
+struct Work {
+    double stored_in_shear = 0;  ///< S : D less the share of plastic work turned to heat
+    double plastic = 0;
+    double viscous = 0;    ///< of the artificial viscosity
+    double hourglass = 0;  ///< of the hourglass damping
+};
+
+/// The undeformed metal at zero pressure.
+struct Rest {
+    double density;  ///< [kg/m3]
+    double energy;   ///< [J/kg]
+    material::ThermoState state;
+};
+Rest rest_state(const material::EquationOfState& equation_of_state, double temperature);
+
+/// What a step found.
+struct StepReport {
+    double sound_time = 0;  ///< least spacing / sound speed [s]
+    double least_volume_ratio = 1;
+    double largest_volume_ratio = 1;
+    bool finite = true;
+};
+
+/// From the rates of deformation to stresses: deformation, density, strength, energy,
+/// equation of state, artificial viscosity, and first Piola-Kirchhoff stress.
+class Constitutive {
+  public:
+    Constitutive(const impact::ImpactCase& impact_case, const Packing& packing,
+                 const material::EquationOfState& equation_of_state, const Rest& rest,
+                 std::unique_ptr<material::Strength<float>> strength);
+
+    /// Puts every particle into the undeformed state.
+    StepReport initialise(Particles& particles) const;
+    /// Advances all particles by `dt` at their rates dF/dt.
+    StepReport update(Particles& particles, const Reference& reference, double dt);
+
+    const Work& work() const { return work_; }
+    /// Mean state of a particle's grains; `index` counts within Packing::active.
+    material::GrainState state(std::size_t index, std::size_t lane) const;
+    std::size_t grains_per_point() const { return grains_; }
+
+  private:
+    /// What the strength answers for one block, averaged over its grains.
+    struct Response {
+        Vector deviator[6];
+        Vector plastic_power;
+    };
+    Response strength_response(std::size_t index, const Particles& particles,
+                               const Vector (&gradient)[9], const Vector& density,
+                               double dt);
+    void close_energy(Particles& particles, std::size_t block, const Vector& dilatation,
+                      const Vector& density, const Vector& heating, double dt) const;
+
+    const Packing& packing_;
+    const material::EquationOfState& equation_of_state_;
+    std::unique_ptr<material::Strength<float>> strength_;
+    std::size_t grains_;
+    Rest rest_;
+    double shear_ratio_;  // G/K
+    float taylor_quinney_;
+    float linear_viscosity_;
+    float quadratic_viscosity_;
+    Work work_;
+};
+
+}  // namespace taylorcal::sph

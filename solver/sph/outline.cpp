@@ -1,0 +1,161 @@
+#include "solver/sph/outline.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Core>
+
+namespace taylorcal::sph {
+
+namespace {
+
+constexpr int angles = 48;          // of tracers around the specimen
+constexpr double tolerance = 1e-9;  // between heights that are meant to be one [m]
+
+Eigen::Vector3d carried(const Particles& particles, std::size_t slot,
+                        const Eigen::Vector3d& offset) {
+    Eigen::Vector3d point;
+    for (std::size_t r = 0; r < 3; ++r) {
+        point(static_cast<Eigen::Index>(r)) =
+            particles.position[r][slot] +
+            particles.deformation[3 * r][slot] * offset.x() +
+            particles.deformation[3 * r + 1][slot] * offset.y() +
+            particles.deformation[3 * r + 2][slot] * offset.z();
+    }
+    return point;
+}
+
+}  // namespace
+
+Outline::Outline(const specimen::Shape& shape, const Packing& packing)
+    : packing_(packing),
+      layer_slots_(packing.layers.size()),
+      head_length_(shape.head_length),
+      initial_length_(shape.length()),
+      initial_rear_radius_(shape.rear_radius()) {
+    for (std::size_t c = 0; c < packing.columns.size(); ++c) {
+        const std::size_t sites = packing.blocks_per_column * block_size;
+        for (std::size_t k = 0; k < sites; ++k) {
+            const std::size_t slot = packing.columns[c].first_slot + k;
+            if (packing.volume[slot] > 0) {
+                layer_slots_[packing.layer_of(c, k)].push_back(slot);
+            }
+        }
+    }
+    const auto& stations = shape.station_height;
+    std::size_t layer = 0;
+    for (std::size_t s = 0; s + 1 < stations.size(); ++s) {
+        if (stations[s + 1] <= stations[s]) continue;
+        const auto on_station = [&](std::size_t station, std::size_t of_layer) {
+            if (packing.layers[of_layer].height == stations[station]) return;
+            rings_.push_back(make_ring(of_layer, stations[station],
+                                       shape.station_radius[station], false));
+        };
+        on_station(s, layer);
+        const std::size_t first = layer;
+        for (; layer < packing.layers.size() &&
+               packing.layers[layer].low < stations[s + 1] - tolerance;
+             ++layer) {
+            const double height = packing.layers[layer].height;
+            if (height < shape.head_length) {
+                transition_layer_ = layer + 1;
+                transition_ring_ = rings_.size() + 1;
+            }
+            const double radius =
+                std::lerp(shape.station_radius[s], shape.station_radius[s + 1],
+                          (height - stations[s]) / (stations[s + 1] - stations[s]));
+            rings_.push_back(make_ring(layer, height, radius, layer > first));
+        }
+        rings_.back().smoothed = false;
+        on_station(s + 1, layer - 1);
+        // A station at the section: the ring just above starts the next stretch.
+        if (std::abs(stations[s + 1] - shape.head_length) < tolerance) {
+            transition_ring_ = rings_.size();
+        }
+    }
+}
+
+Outline::Ring Outline::make_ring(std::size_t layer, double height, double radius,
+                                 bool smoothed) const {
+    Ring ring{{}, smoothed};
+    for (int a = 0; a < angles; ++a) {
+        const double angle = 2 * std::numbers::pi * (a + 0.5) / angles;
+        const double x = radius * std::cos(angle), y = radius * std::sin(angle);
+        Tracer nearest{0, INFINITY, INFINITY, INFINITY};
+        for (const std::size_t slot : layer_slots_[layer]) {
+            const double dx = x - packing_.x[slot], dy = y - packing_.y[slot];
+            if (std::hypot(dx, dy) < std::hypot(nearest.x, nearest.y)) {
+                nearest = {slot, dx, dy, height - packing_.z[slot]};
+            }
+        }
+        ring.tracers.push_back(nearest);
+    }
+    return ring;
+}
+
+double Outline::plane_height(const Particles& particles, std::size_t layer,
+                             double height) const {
+    const double rise = height - packing_.layers[layer].height;
+    double sum = 0, volume = 0;
+    for (const std::size_t slot : layer_slots_[layer]) {
+        sum += packing_.volume[slot] * carried(particles, slot, {0, 0, rise}).z();
+        volume += packing_.volume[slot];
+    }
+    return sum / volume;
+}
+
+observe::DeformedProfile Outline::measure(const Particles& particles) const {
+    const std::size_t last = packing_.layers.size() - 1;
+    const double face = plane_height(particles, 0, packing_.layers.front().low);
+
+    observe::DeformedProfile profile;
+    profile.initial_length = initial_length_;
+    profile.initial_rear_radius = initial_rear_radius_;
+    profile.total_length =
+        plane_height(particles, last, packing_.layers[last].high) - face;
+    profile.transition_height =
+        plane_height(particles, transition_layer_, head_length_) - face;
+
+    std::vector<double> heights, radii;
+    for (const Ring& ring : rings_) {
+        Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+        std::vector<Eigen::Vector3d> points;
+        for (const Tracer& t : ring.tracers) {
+            points.push_back(carried(particles, t.slot, {t.x, t.y, t.z}));
+            centre += points.back() / angles;
+        }
+        double square = 0;
+        for (const Eigen::Vector3d& point : points) {
+            square += (point - centre).head<2>().squaredNorm() / angles;
+        }
+        heights.push_back(centre.z() - face);
+        radii.push_back(std::sqrt(square));
+    }
+    profile.outline_height = heights;
+    profile.outline_radius = radii;
+    profile.head_points = transition_ring_;
+    // The two interlaced lattices alternate: 1-2-1 means keep straight lines as they are.
+    for (std::size_t i = 1; i + 1 < rings_.size(); ++i) {
+        if (!rings_[i].smoothed) continue;
+        profile.outline_height[i] =
+            (heights[i - 1] + 2 * heights[i] + heights[i + 1]) / 4;
+        profile.outline_radius[i] = (radii[i - 1] + 2 * radii[i] + radii[i + 1]) / 4;
+    }
+    profile.transition_radius = profile.outline_radius[transition_ring_];
+    return profile;
+}
+
+double Outline::contact_spot_radius(const Particles& particles) const {
+    double x = 0, y = 0, squares = 0, volume = 0;
+    for (const std::size_t slot : layer_slots_.front()) {
+        const double v = packing_.volume[slot];
+        const double px = particles.position[0][slot], py = particles.position[1][slot];
+        volume += v;
+        x += v * px;
+        y += v * py;
+        squares += v * (px * px + py * py);
+    }
+    return std::sqrt(2 * (squares - (x * x + y * y) / volume) / volume);
+}
+
+}  // namespace taylorcal::sph

@@ -1,0 +1,164 @@
+#include "solver/sph/packing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <utility>
+
+namespace taylorcal::sph {
+
+namespace {
+
+using Site = std::pair<int, int>;  // (ix, iy)
+
+constexpr double least_coverage = 0.35;  // of a tile, for its site to become a particle
+constexpr int samples_per_edge = 24;
+
+/// Layers between the stations, each near half a lattice edge thick.
+std::vector<Layer> slice(const specimen::Shape& shape, double edge) {
+    std::vector<Layer> layers;
+    const std::size_t stretches = shape.station_height.size() - 1;
+    for (std::size_t s = 0; s < stretches; ++s) {
+        const double bottom = shape.station_height[s];
+        const double rise = shape.station_height[s + 1] - bottom;
+        if (rise <= 0) continue;
+        // A face takes half a layer from its end of the stretch.
+        const double first = s == 0 ? 0.5 : 0;
+        const double last = s + 1 == stretches ? 0.5 : 0;
+        const double whole = std::max(1.0, std::round(rise / (edge / 2) - first - last));
+        const double thickness = rise / (whole + first + last);
+        const auto add = [&](double low, double high, double height) {
+            const auto radius = [&](double z) {
+                return std::lerp(shape.station_radius[s], shape.station_radius[s + 1],
+                                 (z - bottom) / rise);
+            };
+            const double r0 = radius(low), r1 = radius(high);
+            const double area = std::numbers::pi / 3 * (r0 * r0 + r0 * r1 + r1 * r1);
+            layers.push_back({height, low, high, area * (high - low),
+                              std::sqrt(area / std::numbers::pi)});
+        };
+        double low = bottom + first * thickness;
+        if (first > 0) add(bottom, low, bottom);
+        for (double i = 0; i < whole; ++i, low += thickness) {
+            add(low, low + thickness, low + thickness / 2);
+        }
+        if (last > 0) add(low, bottom + rise, bottom + rise);
+    }
+    return layers;
+}
+
+/// Sample points of one tile, evenly spread; positions in edges.
+template <class Visit>
+void sample_tile(const Site& site, const Visit& visit) {
+    for (int i = 0; i < samples_per_edge; ++i) {
+        for (int j = 0; j < samples_per_edge; ++j) {
+            visit(site.first / 2.0 - 0.5 + (i + 0.5) / samples_per_edge,
+                  site.second / 2.0 - 0.5 + (j + 0.5) / samples_per_edge);
+        }
+    }
+}
+
+/// The sites of `kept` nearest to a point. Equally near ones share what lies there, which
+/// keeps the lattice's symmetry.
+std::vector<Site> nearest_sites(const std::map<Site, double>& kept, double x, double y) {
+    std::vector<Site> owners;
+    double least = INFINITY;
+    for (const auto& [site, share] : kept) {
+        const double distance = std::hypot(site.first / 2.0 - x, site.second / 2.0 - y);
+        if (distance > least + 1e-9) continue;
+        if (distance < least - 1e-9) owners.clear();
+        least = std::min(least, distance);
+        owners.push_back(site);
+    }
+    return owners;
+}
+
+/// The share of a disc's area, in tiles, that each site of one parity owns.
+std::map<Site, double> tile_disc(double radius_in_edges, int parity) {
+    const double r2 = radius_in_edges * radius_in_edges;
+    constexpr double sample_area = 1.0 / (samples_per_edge * samples_per_edge);
+    std::map<Site, double> coverage;
+    double fullest = 0;
+    const int reach = 2 * static_cast<int>(std::ceil(radius_in_edges)) + parity;
+    for (int ix = -reach; ix <= reach; ix += 2) {
+        for (int iy = -reach; iy <= reach; iy += 2) {
+            double covered = 0;
+            sample_tile({ix, iy}, [&](double x, double y) {
+                if (x * x + y * y < r2) covered += sample_area;
+            });
+            if (covered > 0) coverage[{ix, iy}] = covered;
+            fullest = std::max(fullest, covered);
+        }
+    }
+    const double limit = std::min(least_coverage, 0.99 * fullest);
+    std::map<Site, double> kept;
+    for (const auto& [site, covered] : coverage) {
+        if (covered >= limit) kept[site] = covered;
+    }
+    std::map<Site, double> shares = kept;
+    for (const auto& [site, covered] : coverage) {
+        if (kept.contains(site)) continue;
+        sample_tile(site, [&](double x, double y) {
+            if (x * x + y * y >= r2) return;
+            const std::vector<Site> owners = nearest_sites(kept, x, y);
+            for (const Site& owner : owners) {
+                shares[owner] += sample_area / static_cast<double>(owners.size());
+            }
+        });
+    }
+    return shares;
+}
+
+}  // namespace
+
+Packing pack(const specimen::Shape& shape, double edge) {
+    Packing packing;
+    packing.edge = edge;
+    packing.layers = slice(shape, edge);
+
+    std::vector<std::map<Site, double>> tiles;
+    std::map<Site, std::size_t> column_of;
+    for (std::size_t l = 0; l < packing.layers.size(); ++l) {
+        const bool same =
+            l >= 2 && packing.layers[l].radius == packing.layers[l - 2].radius;
+        tiles.push_back(
+            same ? tiles[l - 2]
+                 : tile_disc(packing.layers[l].radius / edge, static_cast<int>(l % 2)));
+        for (const auto& [site, share] : tiles.back()) column_of[site] = 0;
+    }
+
+    const std::size_t sites = (packing.layers.size() + 1) / 2;
+    packing.blocks_per_column = (sites + block_size - 1) / block_size;
+    const std::size_t stride = (packing.blocks_per_column + 1) * block_size;
+    for (auto& [site, index] : column_of) {
+        index = packing.columns.size();
+        packing.columns.push_back({site.first, site.second, block_size + index * stride});
+    }
+    packing.slots = block_size + packing.columns.size() * stride;
+    for (auto* field : {&packing.x, &packing.y, &packing.z, &packing.volume}) {
+        field->assign(packing.slots, 0.0);
+    }
+    for (std::size_t l = 0; l < packing.layers.size(); ++l) {
+        double total = 0;
+        for (const auto& [site, share] : tiles[l]) total += share;
+        for (const auto& [site, share] : tiles[l]) {
+            const Column& column = packing.columns[column_of[site]];
+            const std::size_t slot = column.first_slot + l / 2;
+            packing.x[slot] = column.ix * edge / 2;
+            packing.y[slot] = column.iy * edge / 2;
+            packing.z[slot] = packing.layers[l].height;
+            packing.volume[slot] = packing.layers[l].volume * share / total;
+            ++packing.particles;
+        }
+    }
+    for (std::size_t b = 0; b < packing.slots / block_size; ++b) {
+        const auto first = packing.volume.begin() + static_cast<long>(b * block_size);
+        if (std::any_of(first, first + block_size, [](double v) { return v > 0; })) {
+            packing.active.push_back(b);
+        }
+    }
+    return packing;
+}
+
+}  // namespace taylorcal::sph

@@ -1,0 +1,60 @@
+#pragma once
+
+#include "solver/specimen/shape.hpp"
+
+#include <cstddef>
+#include <vector>
+
+namespace taylorcal::sph {
+
+/// Slots of one block: as many as a vector of floats has lanes.
+inline constexpr std::size_t block_size = 16;
+
+/// One horizontal sheet of particles. Those of the two faces lie on the face, so that
+/// they meet the anvil where the specimen does, and have half the thickness.
+struct Layer {
+    double height;     ///< of its particles [m]
+    double low, high;  ///< the slice of the specimen that it stands for [m]
+    double volume;     ///< of the profile within it [m3]
+    double radius;     ///< of the cylinder of that volume [m]
+};
+
+/// A vertical line of lattice sites, at (ix, iy) half edges from the axis. Both are even
+/// for one of the two interlaced cubic lattices (slot k is in layer 2k) and odd for the
+/// other (layer 2k + 1).
+struct Column {
+    int ix;
+    int iy;
+    std::size_t first_slot;
+
+    int parity() const { return ix & 1; }
+};
+
+/// Particles on a bcc lattice clipped to a profile of revolution that stands on z = 0.
+///
+/// Sites are stored column by column in blocks of 16, with an empty block before, between
+/// and after the columns: a neighbour of every site of a block is then a contiguous run
+/// of memory at a fixed distance, and needs no index. Sites outside the specimen have no
+/// volume. Each layer's volume is that of the profile: a site owns the part of its square
+/// tile inside the outline, and sites that would own little give it to their neighbours.
+struct Packing {
+    double edge = 0;  ///< of the lattice cube [m]
+    std::vector<Layer> layers;
+    std::vector<Column> columns;
+    std::size_t blocks_per_column = 0;
+    std::size_t slots = 0;
+    std::vector<double> x, y, z;      ///< reference positions, by slot [m]
+    std::vector<double> volume;       ///< zero where there is no particle [m3]
+    std::vector<std::size_t> active;  ///< blocks that hold a particle
+    std::size_t particles = 0;
+
+    std::size_t layer_of(std::size_t column, std::size_t k) const {
+        return 2 * k + static_cast<std::size_t>(columns[column].parity());
+    }
+};
+
+/// Packs `shape` with a lattice edge of `edge` [m], along the axis adjusted so that whole
+/// layers fit between the profile's stations.
+Packing pack(const specimen::Shape& shape, double edge);
+
+}  // namespace taylorcal::sph

@@ -1,0 +1,61 @@
+#pragma once
+
+#include "solver/sph/packing.hpp"
+#include "solver/sph/particles.hpp"
+
+#include <cstddef>
+#include <vector>
+
+namespace taylorcal::sph {
+
+/// The frozen neighbourhood of every site in the reference state: gradients and forces of
+/// total Lagrangian SPH with first-order corrected gradients (Bonet and Lok 1999).
+///
+/// With w = V_j (-W'/r) and K_i = sum_j w X_ij X_ij^T the gradient of a field f is
+/// sum_j w (f_j - f_i) X_ij^T K_i^-1: exact for linear fields, and their least-squares
+/// fit otherwise. What the fit misses is the hourglass motion.
+class Reference {
+  public:
+    /// `hourglass_viscosity` damps what the gradients cannot see [Pa s].
+    Reference(const Packing& packing, double density, double hourglass_viscosity);
+
+    /// dF/dt of every particle from the velocities, and the heat of hourglass damping.
+    void velocity_gradient(Particles& particles) const;
+
+    /// Accelerations from the stresses Q = P K^-1 in `pull`, and hourglass damping.
+    /// The hourglass force of a pair is minus the derivative of the dissipation
+    /// c sum_i V_i sum_j w |v_ij - Fdot_i X_ij|^2 / 2: the correction needs no more than
+    /// -c Fdot within Q and the relative velocity, because K-fitted gradients are
+    /// stationary points of that sum.
+    void accelerate(Particles& particles) const;
+
+    /// P K^-1 - c Fdot for one block, from P.
+    void store_pull(Particles& particles, std::size_t block,
+                    const Vector (&stress)[9]) const;
+
+    const Field& volume() const { return volume_; }
+
+  private:
+    /// The sites of one neighbouring column that a site sees.
+    struct NeighbourColumn {
+        std::ptrdiff_t offset;           // to the first neighbour's slot
+        float x, y;                      // offset of the column [m]
+        std::size_t count;               // of neighbours in it
+        std::array<float, 5> steepness;  // -W'/r [1/m5]
+    };
+
+    void find_neighbours(const Packing& packing);
+    void measure_moments(const Packing& packing);
+
+    std::vector<std::size_t> active_;
+    std::vector<std::size_t> column_of_block_;
+    std::vector<std::vector<NeighbourColumn>> neighbours_;  // by column
+    Field height_;                                          // reference z [m]
+    Field volume_;                                          // reference [m3]
+    Field specific_volume_;              // 1/density, zero where there is no particle
+    std::array<Field, 6> inverse_;       // K^-1: xx yy zz xy xz yz
+    std::array<Field, 3> first_moment_;  // sum_j w X_ij
+    float viscosity_;                    // hourglass, c [Pa s]
+};
+
+}  // namespace taylorcal::sph

@@ -1,0 +1,103 @@
+#include "solver/material/elastic.hpp"
+#include "solver/material/j2.hpp"
+#include "solver/sph/body.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <catch2/catch.hpp>
+
+using namespace taylorcal;
+
+namespace {
+
+impact::ImpactCase small_case() {
+    impact::ImpactCase impact_case;
+    impact_case.numerics.geometry = impact::Geometry::three_dimensional;
+    impact_case.numerics.elements_across_radius = 4;
+    impact_case.numerics.grains_per_point = 1;
+    impact_case.material.equation_of_state = material::EquationOfStateModel::linear;
+    return impact_case;
+}
+
+std::unique_ptr<material::Strength<float>> elastic(
+    const material::Parameters& parameters,
+    const std::vector<Eigen::Quaterniond>& orientations) {
+    return material::make_elastic<float>(parameters, orientations.size());
+}
+
+std::unique_ptr<material::Strength<float>> plastic(
+    const material::Parameters& parameters,
+    const std::vector<Eigen::Quaterniond>& orientations) {
+    return material::make_j2<float>(parameters, orientations.size());
+}
+
+}  // namespace
+
+TEST_CASE("an elastic bar rings with the bar wave speed", "[body]") {
+    const impact::ImpactCase impact_case = small_case();
+    sph::Body body(impact_case, elastic);
+    const double length = impact_case.shape.length();
+    const double wave_number = std::numbers::pi / length;
+    // The lowest longitudinal mode; the lower face moves off the anvil at first.
+    body.set_velocity([&](const Eigen::Vector3d& x) {
+        return Eigen::Vector3d(0, 0, 0.5 * std::cos(wave_number * x.z()));
+    });
+    const auto amplitude = [&] {
+        double sum = 0;
+        for (std::size_t slot = 0; slot < body.packing().slots; ++slot) {
+            sum += body.mass(slot) * body.particles().velocity[2][slot] *
+                   std::cos(wave_number * body.packing().z[slot]);
+        }
+        return sum;
+    };
+    double earlier = 0, quarter = 0, previous = amplitude();
+    while (quarter == 0 && body.time() < 20e-6) {
+        const double step = body.time_step();
+        body.step();
+        const double now = amplitude();
+        const double middle = body.time() - step / 2;  // velocities live at mid step
+        if (now < 0) quarter = std::lerp(earlier, middle, previous / (previous - now));
+        previous = now;
+        earlier = middle;
+    }
+    // Rayleigh's correction for the inertia of lateral motion: -(nu k r)^2/4.
+    const double bulk = 138e9, poisson = 0.34;
+    const double bar_speed = std::sqrt(3 * bulk * (1 - 2 * poisson) / 8930);
+    const double k_r = poisson * wave_number * impact_case.shape.rear_radius();
+    const double expected = bar_speed * (1 - k_r * k_r / 4);
+    CHECK(2 * length / (4 * quarter) == Approx(expected).epsilon(0.01));
+}
+
+TEST_CASE("an impact keeps its energy, and its momentum along the anvil", "[body]") {
+    impact::ImpactCase impact_case = small_case();
+    impact_case.shape = specimen::make_shape(specimen::ShapeKind::reduced_head_4mm);
+    impact_case.velocity_m_s = 120;
+    sph::Body body(impact_case, plastic);
+    const double initial = body.kinetic_energy();
+    const double stopping = [&] {
+        double mass = 0;
+        for (std::size_t slot = 0; slot < body.packing().slots; ++slot) {
+            mass += body.mass(slot);
+        }
+        return mass * 120;
+    }();
+    while (body.time() < 30e-6) body.step();
+    CHECK(body.kinetic_energy() < 0.9 * initial);
+    CHECK(body.total_energy() == Approx(initial).epsilon(5e-3));
+    double momentum[3] = {};
+    for (std::size_t slot = 0; slot < body.packing().slots; ++slot) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            momentum[c] += body.mass(slot) * body.particles().velocity[c][slot];
+        }
+    }
+    CHECK(std::abs(momentum[0]) < 1e-6 * stopping);
+    CHECK(std::abs(momentum[1]) < 1e-6 * stopping);
+    CHECK(momentum[2] + stopping == Approx(body.anvil().impulse()).epsilon(1e-5));
+    // The anvil only pushes, and nothing is below it.
+    CHECK(body.anvil().impulse() > 0);
+    for (std::size_t slot = 0; slot < body.packing().slots; ++slot) {
+        if (body.packing().volume[slot] <= 0) continue;
+        CHECK(body.particles().position[2][slot] > -1e-12);
+    }
+}

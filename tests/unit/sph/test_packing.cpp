@@ -1,0 +1,92 @@
+#include "solver/observe/sizes.hpp"
+#include "solver/sph/outline.hpp"
+#include "solver/sph/packing.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <catch2/catch.hpp>
+
+using namespace taylorcal;
+
+namespace {
+
+specimen::Shape shape_of(int kind) {
+    return specimen::make_shape(static_cast<specimen::ShapeKind>(kind), 8e-3, 40e-3);
+}
+
+/// Volume of the profile below a height, by many thin discs.
+double volume_below(const specimen::Shape& shape, double height) {
+    constexpr int n = 40000;
+    double volume = 0;
+    for (int i = 0; i < n; ++i) {
+        const double r = shape.radius_at((i + 0.5) * height / n);
+        volume += std::numbers::pi * r * r * height / n;
+    }
+    return volume;
+}
+
+}  // namespace
+
+TEST_CASE("particles have the mass of the profile, in total and by slice", "[packing]") {
+    const specimen::Shape shape = shape_of(GENERATE(0, 1, 2, 3));
+    const double edge = GENERATE(0.6e-3, 1e-3, 1.3e-3);
+    const sph::Packing packing = sph::pack(shape, edge);
+    double total = 0;
+    for (const double volume : packing.volume) total += volume;
+    CHECK(total == Approx(volume_below(shape, shape.length())).epsilon(1e-5));
+    for (const double share : {0.1, 0.25, 0.4, 0.5, 0.8}) {
+        double height = 0, below = 0;  // of the first layer that ends above the share
+        for (const sph::Layer& layer : packing.layers) {
+            if (layer.low >= share * shape.length()) break;
+            height = layer.high;
+        }
+        for (std::size_t slot = 0; slot < packing.slots; ++slot) {
+            if (packing.z[slot] < height) below += packing.volume[slot];
+        }
+        CHECK(below == Approx(volume_below(shape, height)).epsilon(1e-4));
+    }
+}
+
+TEST_CASE("particles are balanced about the axis and none is a sliver", "[packing]") {
+    const specimen::Shape shape = shape_of(GENERATE(0, 1, 2, 3));
+    const sph::Packing packing = sph::pack(shape, 1e-3);
+    double x = 0, y = 0, total = 0;
+    std::size_t count = 0;
+    const double lattice_volume = 0.5e-9;
+    for (std::size_t slot = 0; slot < packing.slots; ++slot) {
+        x += packing.volume[slot] * packing.x[slot];
+        y += packing.volume[slot] * packing.y[slot];
+        total += packing.volume[slot];
+        if (packing.volume[slot] <= 0) continue;
+        ++count;
+        CHECK(packing.volume[slot] > 0.1 * lattice_volume);
+        CHECK(packing.volume[slot] < 2.5 * lattice_volume);
+    }
+    CHECK(count == packing.particles);
+    CHECK(std::abs(x) < 1e-12 * total);
+    CHECK(std::abs(y) < 1e-12 * total);
+}
+
+TEST_CASE("the undeformed specimen measures its own dimensions", "[outline]") {
+    const int kind = GENERATE(0, 1, 2, 3);
+    const double edge = GENERATE(0.7e-3, 1e-3);
+    const specimen::Shape shape = shape_of(kind);
+    const sph::Packing packing = sph::pack(shape, edge);
+    sph::Particles particles(packing.slots);
+    particles.position = {packing.x, packing.y, packing.z};
+    const observe::DeformedProfile profile =
+        sph::Outline(shape, packing).measure(particles);
+    CHECK(profile.total_length == Approx(40e-3).epsilon(1e-9));
+    CHECK(profile.transition_height == Approx(shape.head_length).epsilon(1e-9));
+    CHECK(profile.transition_radius == Approx(4e-3).epsilon(1e-9));
+    const double foot[4] = {4e-3, 2e-3, 1.5e-3, 1e-3};
+    CHECK(profile.outline_radius.front() == Approx(foot[kind]).epsilon(1e-9));
+    CHECK(profile.outline_height.front() == Approx(0).margin(1e-12));
+    for (std::size_t i = 0; i < profile.outline_height.size(); ++i) {
+        const double height = profile.outline_height[i];
+        const bool at_step = std::abs(height - shape.head_length) < 1e-9;
+        if (at_step) continue;
+        CHECK(profile.outline_radius[i] == Approx(shape.radius_at(height)).epsilon(1e-6));
+    }
+}

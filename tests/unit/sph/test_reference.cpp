@@ -1,0 +1,121 @@
+#include "solver/sph/reference.hpp"
+
+#include <Eigen/Dense>
+#include <catch2/catch.hpp>
+
+using namespace taylorcal;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+namespace {
+
+sph::Packing specimen_packing(int kind) {
+    return sph::pack(
+        specimen::make_shape(static_cast<specimen::ShapeKind>(kind), 8e-3, 40e-3), 1e-3);
+}
+
+void set_linear_velocity(sph::Particles& particles, const sph::Packing& packing,
+                         const Matrix3d& gradient) {
+    for (std::size_t slot = 0; slot < packing.slots; ++slot) {
+        if (packing.volume[slot] <= 0) continue;
+        const Vector3d v =
+            gradient * Vector3d(packing.x[slot], packing.y[slot], packing.z[slot]);
+        for (std::size_t c = 0; c < 3; ++c) {
+            particles.speed[c].lanes()[slot] =
+                static_cast<float>(v(static_cast<Eigen::Index>(c)));
+        }
+    }
+}
+
+}  // namespace
+
+TEST_CASE("a linear velocity field has its exact gradient everywhere", "[reference]") {
+    const sph::Packing packing = specimen_packing(GENERATE(0, 1, 2, 3));
+    const sph::Reference reference(packing, 8930, 1.0);
+    sph::Particles particles(packing.slots);
+    Matrix3d gradient;
+    gradient << 1e3, -2e3, 500, 700, 3e3, -900, 400, 100, -4e3;
+    set_linear_velocity(particles, packing, gradient);
+    reference.velocity_gradient(particles);
+    double largest = 0, heating = 0;
+    for (std::size_t slot = 0; slot < packing.slots; ++slot) {
+        if (packing.volume[slot] <= 0) continue;
+        for (std::size_t c = 0; c < 9; ++c) {
+            const double rate = static_cast<double>(particles.rate[c].lanes()[slot]);
+            const auto row = static_cast<Eigen::Index>(c / 3);
+            const auto column = static_cast<Eigen::Index>(c % 3);
+            largest = std::max(largest, std::abs(rate - gradient(row, column)));
+        }
+        heating = std::max(
+            heating, static_cast<double>(particles.hourglass_heating.lanes()[slot]));
+    }
+    CHECK(largest < 1e-3 * gradient.norm());
+    CHECK(heating < 1e-3 * gradient.squaredNorm());
+}
+
+TEST_CASE("hourglass damping does not see linear velocity fields", "[reference]") {
+    const sph::Packing packing = specimen_packing(GENERATE(0, 2));
+    const sph::Reference reference(packing, 8930, 1e3);
+    sph::Particles particles(packing.slots);
+    const auto largest_acceleration = [&] {
+        reference.velocity_gradient(particles);
+        const sph::Vector unstressed[9] = {};
+        for (const std::size_t block : packing.active) {
+            reference.store_pull(particles, block, unstressed);
+        }
+        reference.accelerate(particles);
+        double largest = 0;
+        for (std::size_t slot = 0; slot < packing.slots; ++slot) {
+            for (const sph::Field& field : particles.acceleration) {
+                largest =
+                    std::max(largest, std::abs(static_cast<double>(field.lanes()[slot])));
+            }
+        }
+        return largest;
+    };
+    Matrix3d spin;
+    spin << 0, -3e3, 1e3, 3e3, 0, 2e3, -1e3, -2e3, 0;
+    set_linear_velocity(particles, packing, spin);
+    const double linear = largest_acceleration();
+    // The same speeds alternating between the two interlaced lattices are all hourglass.
+    for (std::size_t c = 0; c < packing.columns.size(); ++c) {
+        const sph::Column& column = packing.columns[c];
+        for (std::size_t k = 0; k < packing.blocks_per_column * sph::block_size; ++k) {
+            const std::size_t slot = column.first_slot + k;
+            if (packing.volume[slot] > 0) {
+                particles.speed[0].lanes()[slot] = column.parity() == 0 ? 10.0f : -10.0f;
+            }
+        }
+    }
+    const double alternating = largest_acceleration();
+    CHECK(linear < 1e-3 * alternating);
+}
+
+TEST_CASE("pair forces add up to nothing", "[reference]") {
+    const sph::Packing packing = specimen_packing(3);
+    const sph::Reference reference(packing, 8930, 1e3);
+    sph::Particles particles(packing.slots);
+    // Any stress and velocity field will do: here one without symmetry.
+    for (const std::size_t block : packing.active) {
+        sph::Vector stress[9];
+        for (int c = 0; c < 9; ++c) {
+            for (std::size_t k = 0; k < sph::block_size; ++k) {
+                const double z = packing.z[block * sph::block_size + k];
+                stress[c][k] = static_cast<float>(1e8 * std::sin(900 * z + c));
+            }
+        }
+        reference.store_pull(particles, block, stress);
+    }
+    reference.accelerate(particles);
+    for (const sph::Field& field : particles.acceleration) {
+        double force = 0, scale = 0;
+        for (std::size_t slot = 0; slot < packing.slots; ++slot) {
+            const double f =
+                packing.volume[slot] * static_cast<double>(field.lanes()[slot]);
+            force += f;
+            scale += std::abs(f);
+        }
+        CHECK(scale > 0);
+        CHECK(std::abs(force) < 1e-5 * scale);
+    }
+}

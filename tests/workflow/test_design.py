@@ -27,23 +27,32 @@ def test_each_shape_covers_each_range_evenly(settings):
             if lower == upper:
                 assert (values == lower).all()
                 continue
-            # A Sobol sequence fills ten slots much more evenly than chance (10 +- 3).
-            counts, _ = np.histogram(values, bins=10, range=(lower, upper))
-            assert counts.min() >= 7 and counts.max() <= 13
+            # A Sobol sequence fills ten slots much more evenly than chance (9.4 +- 3).
+            inside = values[(values > lower) & (values < upper)]
+            counts, _ = np.histogram(inside, bins=10, range=(lower, upper))
+            assert counts.min() >= 7 and counts.max() <= 12
 
 
 def test_densities_are_even_in_their_logarithm(settings):
     made = design(settings)
     values = np.log10(made["inputs"][:, made["names"].index("rho_immobile_initial")])
-    counts, _ = np.histogram(values, bins=10, range=(12, 14))
-    assert counts.sum() == 300
-    assert counts.min() >= 25 and counts.max() <= 35
+    inside = values[(values > 12) & (values < 14)]
+    counts, _ = np.histogram(inside, bins=10, range=(12, 14))
+    assert counts.sum() > 270
+    assert counts.min() >= 24 and counts.max() <= 32
 
 
-def test_more_runs_keep_the_first_ones(settings):
-    few, many = design(settings), design({**settings, "runs": 700})
-    assert np.array_equal(few["inputs"], many["inputs"][:300])
-    assert np.array_equal(few["seed"], many["seed"][:300])
+@pytest.mark.parametrize("runs", [24, 300, 1000])
+def test_each_shape_has_runs_on_both_ends_of_each_range(settings, runs):
+    made = design({**settings, "runs": runs})
+    shapes = np.array(made["shape"])
+    parameters = {name: (v["lower"], v["upper"]) for name, v in settings["parameters"].items()}
+    for name, (lower, upper) in {**settings["ranges"], **parameters}.items():
+        for shape in settings["shapes"]:
+            values = made["inputs"][shapes == shape, made["names"].index(name)]
+            assert values.min() == lower and values.max() == upper
+            if lower < upper:
+                assert (values == lower).sum() <= 4 and (values == upper).sum() <= 4
 
 
 def test_shapes_and_seeds_differ(settings):

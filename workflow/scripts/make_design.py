@@ -10,8 +10,11 @@ from scipy.stats import qmc
 from stage_log import logged_to
 
 
+EDGE_RUNS = 3  # of each shape on either end of each range
+
+
 def design(settings: dict) -> dict:
-    """Columns of the design. More runs with the same seed keep the first ones."""
+    """Columns of the design."""
     axes = [(name, *limits, False) for name, limits in settings["ranges"].items()]
     axes += [
         (name, values["lower"], values["upper"], values["prior"] == "log_uniform")
@@ -24,9 +27,10 @@ def design(settings: dict) -> dict:
     for index, (_, lower, upper, logarithmic) in enumerate(axes):
         share = points[:, varying.index(index)] if index in varying else np.zeros(runs)
         if logarithmic:
-            inputs[:, index] = lower * (upper / lower) ** share
+            values = lower * (upper / lower) ** share
         else:
-            inputs[:, index] = lower + (upper - lower) * share
+            values = lower + (upper - lower) * share
+        inputs[:, index] = np.clip(values, lower, upper)  # rounding must not leave the range
     seeds = np.random.default_rng(settings["seed"]).integers(1, 2**31, size=runs)
     return {
         "run_id": np.arange(runs, dtype=np.int64),
@@ -38,14 +42,18 @@ def design(settings: dict) -> dict:
 
 
 def _interleaved_sobol(dimensions: int, runs: int, shapes: int, seed: int) -> np.ndarray:
-    """Each shape has a Sobol sequence of its own; row n belongs to shape n mod `shapes`."""
+    """Points of the unit cube; each shape has a sequence of its own, row n belongs to shape
+    n mod `shapes`. The cube is a little smaller than the sequence's, and points beyond it are
+    moved to its faces: a network that has seen the ends of a range need not extrapolate.
+    """
     points = np.empty((runs, dimensions))
     for shape in range(shapes):
         rows = len(range(shape, runs, shapes))
         powers = max(rows - 1, 1).bit_length()
         engine = qmc.Sobol(dimensions, seed=np.random.default_rng([seed, shape]))
-        points[shape::shapes] = engine.random_base2(powers)[:rows]
-    return points
+        stretch = 1 + 2 * EDGE_RUNS / rows
+        points[shape::shapes] = 0.5 + stretch * (engine.random_base2(powers)[:rows] - 0.5)
+    return np.clip(points, 0, 1)
 
 
 def write_design(path: Path, columns: dict) -> None:

@@ -51,8 +51,9 @@ Body::Body(const impact::ImpactCase& impact_case)
     const std::size_t count = mesh.cells.size();
     const double initial_energy =
         equation_of_state->energy_at_temperature(impact_case.initial_temperature_K);
-    const material::ThermoState initial =
-        equation_of_state->at(parameters.initial_density, initial_energy);
+    const double density =
+        equation_of_state->density_at_temperature(impact_case.initial_temperature_K);
+    const material::ThermoState initial = equation_of_state->at(density, initial_energy);
     volume.resize(count);
     cell_mass.resize(count);
     energy.assign(count, initial_energy);
@@ -68,10 +69,10 @@ Body::Body(const impact::ImpactCase& impact_case)
             z[a] = height[mesh.cells[c][a]];
         }
         volume[c] = ring_of(r, z).volume;
-        cell_mass[c] = volume[c] * parameters.initial_density;
+        cell_mass[c] = volume[c] * density;
         const std::array<double, 4> corners = corner_volumes(r, z);
         for (std::size_t a = 0; a < 4; ++a) {
-            node_mass[mesh.cells[c][a]] += corners[a] * parameters.initial_density;
+            node_mass[mesh.cells[c][a]] += corners[a] * density;
         }
     }
     const auto grains = static_cast<std::size_t>(numerics.grains_per_point);

@@ -7,13 +7,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace taylorcal::material {
 namespace {
 
-// A substep may strain a grain by at most this: about the elastic strain at first yield,
-// so that the upper yield point is resolved.
-constexpr double largest_strain_increment = 2e-4;
+// A substep may strain a grain by at most this.
+constexpr double largest_strain_increment = 1e-3;
+// A substep may multiply the mobile density of a system by at most this above one: at
+// first yield it grows tenfold within nanoseconds and decides the upper yield point.
+template <class Real>
+constexpr double largest_growth = sizeof(Real) == 4 ? 0.04 : 0.01;
+// A step is never cut into more than about as many substeps.
+constexpr double most_substeps = 200;
 constexpr int largest_iteration_count = 40;
 // From this iteration on the slope of the drag law is its secant, which cannot overshoot.
 constexpr int first_secant_iteration = 12;
@@ -21,6 +27,14 @@ constexpr int first_secant_iteration = 12;
 template <class Real>
 inline Lanes<Real> resolve(const Real (&m)[5], const Lanes<Real> (&e)[5]) {
     return m[0] * e[0] + m[1] * e[1] + m[2] * e[2] + m[3] * e[3] + m[4] * e[4];
+}
+
+template <class Real>
+double largest_lane(const Lanes<Real>& values) {
+    double largest = 0;
+    for (std::size_t lane = 0; lane < lane_count<Real>; ++lane)
+        largest = std::max(largest, static_cast<double>(values[lane]));
+    return largest;
 }
 
 template <class Real>
@@ -55,6 +69,7 @@ DislocationStrength<Real>::DislocationStrength(
             block.immobile[d] += static_cast<Real>(parameters.rho_immobile_initial);
         }
         block.shear_modulus += 1;
+        block.next_substep = std::numeric_limits<double>::infinity();
     }
 }
 
@@ -70,19 +85,31 @@ typename DislocationStrength<Real>::V DislocationStrength<Real>::hardening(
            scale * shear_modulus * lane_sqrt(total);
 }
 
+/// Moves the block by the step's duration, shortened until no system multiplies too much,
+/// and asks for the next duration.
 template <class Real>
-int DislocationStrength<Real>::substeps(const Step& step) const {
-    V square = step.rate[0] * step.rate[0];
-    for (int k = 1; k < 5; ++k) square += step.rate[k] * step.rate[k];
-    Real largest = 0;
-    for (std::size_t lane = 0; lane < lane_count<Real>; ++lane) {
-        largest = std::max(largest, square[lane]);
+void DislocationStrength<Real>::substep(Block& block, Step& step, double shortest,
+                                        Slip& slip) const {
+    const Block before = block;
+    const V rho_free = broadcast(static_cast<Real>(parameters_.rho_mobile_free));
+    for (;;) {
+        solve_stress(block, step, slip);
+        evolve_densities(block, step, slip);
+        // Systems emptied by annihilation refill from rhoDfree, which decides nothing.
+        V growth = {};
+        for (int d = 0; d < slip_system_count; ++d) {
+            const V base = lane_max(before.mobile[d], rho_free);
+            growth = lane_max(growth,
+                              (block.mobile[d] - before.mobile[d]) * lane_inverse(base));
+        }
+        const double excess = largest_lane<Real>(growth) / largest_growth<Real>;
+        const auto duration = static_cast<double>(step.duration);
+        block.next_substep = duration / std::max(excess, 0.5);
+        if (!(excess > 2) || duration <= shortest * (1 + 1e-6)) return;
+        block = before;
+        step.duration =
+            static_cast<Real>(std::max(shortest, duration / std::min(excess, 4.0)));
     }
-    const double strain = std::sqrt(static_cast<double>(largest)) * step.duration;
-    // A NaN strain compares false and takes one substep; the run is caught by its caller.
-    return strain > largest_strain_increment
-               ? static_cast<int>(std::min(1000.0, strain / largest_strain_increment)) + 1
-               : 1;
 }
 
 template <class Real>
@@ -91,28 +118,42 @@ void DislocationStrength<Real>::update(std::size_t block_index,
                                        BlockOutput<Real>& output) {
     Block& block = blocks_[block_index];
     Step step;
-    rotate_with_spin<Real>(input.velocity_gradient, input.time_step, block.orientation);
+    // The lattice at mid step sees the velocity gradient; the stress answers at the end.
+    const Real half_step = input.time_step / 2;
+    rotate_with_spin<Real>(input.velocity_gradient, half_step, block.orientation);
     strain_rate_in_crystal<Real>(block.orientation, input.velocity_gradient, step.rate,
                                  step.dilatation);
+    rotate_with_spin<Real>(input.velocity_gradient, half_step, block.orientation);
     step.shear_modulus = input.shear_modulus;
     step.sound_speed = lane_sqrt(input.shear_modulus / input.density);
     step.drag = static_cast<Real>(parameters_.drag_constant) +
                 static_cast<Real>(parameters_.drag_slope) * input.temperature;
     block.shear_modulus = input.shear_modulus;
     step.duration = input.time_step;
-    const int count = substeps(step);
-    step.duration = input.time_step / static_cast<Real>(count);
 
     V plastic_before[5];
     std::copy(block.plastic, block.plastic + 5, plastic_before);
+    V square_rate = {};
+    for (int k = 0; k < 5; ++k) square_rate += step.rate[k] * step.rate[k];
+    const double total = static_cast<double>(input.time_step);
+    const double shortest = total / most_substeps;
+    const double longest =
+        largest_strain_increment / std::sqrt(largest_lane<Real>(square_rate));
+    double left = total;
     V work = {};
-    for (int n = 0; n < count; ++n) {
+    while (left > 0) {
+        const double wanted =
+            std::clamp(block.next_substep, shortest, std::max(shortest, longest));
+        const double count = std::max(1.0, std::ceil(left / wanted));
+        step.duration = static_cast<Real>(left / count);
         Slip slip;
-        solve_stress(block, step, slip);
-        evolve_densities(block, step, slip);
-        work += slip.power;
+        substep(block, step, shortest, slip);
+        work += slip.power * step.duration;
+        // The last part of a step takes all of it, whatever the rounding.
+        const auto duration = static_cast<double>(step.duration);
+        left = duration < left * (1 - 1e-6) ? left - duration : 0;
     }
-    output.plastic_power = work / static_cast<Real>(count);
+    output.plastic_power = work / input.time_step;
     V square = {};
     for (int k = 0; k < 5; ++k) {
         const V increment = block.plastic[k] - plastic_before[k];

@@ -40,6 +40,7 @@ class DislocationStrength final : public Strength<Real> {
         V drag_root[slip_system_count];  ///< z of the last step
         V annihilated_energy;            ///< J [J/m3]
         V shear_modulus;                 ///< G of the last step [Pa]
+        double next_substep;             ///< that the kinetics allow [s]
     };
 
     /// What a substep needs besides the block.
@@ -63,7 +64,7 @@ class DislocationStrength final : public Strength<Real> {
     void solve_stress(Block& block, const Step& step, Slip& slip) const;
     void evolve_densities(Block& block, const Step& step, const Slip& slip) const;
     V hardening(const Block& block, V shear_modulus) const;
-    int substeps(const Step& step) const;
+    void substep(Block& block, Step& step, double shortest, Slip& slip) const;
 
     Parameters parameters_;
     Real schmid_[slip_system_count][5];

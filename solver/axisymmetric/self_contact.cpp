@@ -6,8 +6,9 @@
 namespace taylorcal::axisymmetric {
 namespace {
 
-// A node and a segment that were closer than this along the undeformed outline, in mean
-// segment lengths, are neighbours and cannot touch.
+// A node and a segment closer than this along the undeformed outline, in mean segment
+// lengths, are neighbours: at an edge the node lies behind the segment without touching
+// it, so only one that passes through it from outside is stopped.
 constexpr double neighbour_segments = 2.5;
 constexpr double reach_segments = 1.5;
 
@@ -34,16 +35,17 @@ void SelfContact::search(const Body& body) {
         const double r = body.radius[outline[i]];
         const double z = body.height[outline[i]];
         for (std::size_t j = 0; j + 1 < outline.size(); ++j) {
+            if (i == j || i == j + 1) continue;
             const double arc = reference_arc_[i];
-            if (arc > reference_arc_[j] - apart && arc < reference_arc_[j + 1] + apart)
-                continue;
+            const bool neighbour =
+                arc > reference_arc_[j] - apart && arc < reference_arc_[j + 1] + apart;
             const double r0 = body.radius[outline[j]], r1 = body.radius[outline[j + 1]];
             const double z0 = body.height[outline[j]], z1 = body.height[outline[j + 1]];
             const double gap_r =
                 std::max({std::min(r0, r1) - r, r - std::max(r0, r1), 0.0});
             const double gap_z =
                 std::max({std::min(z0, z1) - z, z - std::max(z0, z1), 0.0});
-            if (gap_r < reach_ && gap_z < reach_) watched_.push_back({i, j});
+            if (gap_r < reach_ && gap_z < reach_) watched_.push_back({i, j, neighbour});
         }
     }
     travel_ = 0;
@@ -76,7 +78,7 @@ void SelfContact::apply(Body& body, double interval, double time_step) {
         const double normal_r = edge_z / length;
         const double normal_z = -edge_r / length;
         const double gap = from_r * normal_r + from_z * normal_z;
-        if (gap < -reach_) continue;  // the far side of the specimen
+        if (gap < (pair.neighbour ? 0 : -reach_)) continue;
         const double closing =
             (body.radial_velocity[n] - (1 - share) * body.radial_velocity[a] -
              share * body.radial_velocity[b]) *

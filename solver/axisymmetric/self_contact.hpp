@@ -9,7 +9,7 @@
 namespace taylorcal::axisymmetric {
 
 /// Keeps the free surface from passing through itself when a head folds onto its rear.
-/// Nodes of the outline that are near a segment which is not their neighbour are watched;
+/// Nodes of the outline that are near a segment of it are watched;
 /// one that would pass through it gives up its relative normal velocity (an inelastic,
 /// frictionless collision that conserves momentum).
 class SelfContact {
@@ -23,6 +23,7 @@ class SelfContact {
     struct Pair {
         std::size_t node;     ///< position in the outline
         std::size_t segment;  ///< from this position to the next
+        bool neighbour;       ///< along the undeformed outline
     };
     void search(const Body& body);
 

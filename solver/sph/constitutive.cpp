@@ -32,6 +32,18 @@ Vector least_stretch(const Vector (&inverse)[9]) {
     return material::lane_inverse_sqrt(material::lane_sqrt(material::lane_sqrt(squares)));
 }
 
+/// Whether a particle's deformation has gone wrong. Written so that NaN counts as wrong.
+bool is_tangled(const Vector& ratio, const Vector (&rate)[9], float step) {
+    constexpr float least_ratio = 0.5f;  // copper at some 400 GPa
+    constexpr float largest_ratio = 2;
+    constexpr float largest_strain = 0.5f;  // within a step
+    Vector squares{};
+    for (const Vector& component : rate) squares += component * component;
+    const auto sound = (ratio > least_ratio) & (ratio < largest_ratio) &
+                       (step * step * squares < largest_strain * largest_strain);
+    return material::any_lane(~sound);
+}
+
 /// S : D for a deviator and a velocity gradient.
 Vector power(const Vector (&s)[6], const Vector (&l)[9]) {
     return s[0] * l[0] + s[1] * l[4] + s[2] * l[8] + s[3] * (l[1] + l[3]) +
@@ -92,7 +104,7 @@ StepReport Constitutive::initialise(Particles& particles) const {
         particles.density[block] = material::broadcast(static_cast<float>(rest_.density));
     }
     const double modulus = rest_.state.bulk_modulus * (1 + 4.0 / 3 * shear_ratio_);
-    return {packing_.edge / std::sqrt(modulus / rest_.density), 1, 1, true};
+    return {packing_.edge / std::sqrt(modulus / rest_.density), false};
 }
 
 Constitutive::Response Constitutive::strength_response(std::size_t index,
@@ -150,8 +162,6 @@ StepReport Constitutive::update(Particles& particles, const Reference& reference
     const auto edge = static_cast<float>(packing_.edge);
     const auto stiffness = static_cast<float>(1 + 4.0 / 3 * shear_ratio_);
     Vector least_time = material::broadcast(1.0f);
-    Vector least_ratio = material::broadcast(1.0f);
-    Vector largest_ratio = material::broadcast(1.0f);
     for (std::size_t index = 0; index < packing_.active.size(); ++index) {
         const std::size_t block = packing_.active[index];
         Vector end[9], middle[9], rate[9], gradient[9], inverse[9];
@@ -167,6 +177,7 @@ StepReport Constitutive::update(Particles& particles, const Reference& reference
         const Vector middle_ratio = invert(middle, inverse);
         multiply(rate, inverse, gradient);
         const Vector ratio = invert(end, inverse);
+        if (is_tangled(ratio, rate, step)) return {0, true};
         const Vector density = rho0 * material::lane_inverse(ratio);
         const Vector dilatation = gradient[0] + gradient[4] + gradient[8];
 
@@ -206,22 +217,13 @@ StepReport Constitutive::update(Particles& particles, const Reference& reference
         work_.hourglass += sum(volume * step * hourglass);
 
         const Vector time = spacing * material::lane_inverse(sound_speed);
-        // A comparison with NaN is false: written so that NaN is kept, not passed over.
-        least_time = time >= least_time ? least_time : time;
-        least_ratio = ratio >= least_ratio ? least_ratio : ratio;
-        largest_ratio = ratio <= largest_ratio ? largest_ratio : ratio;
+        least_time = time < least_time ? time : least_time;
     }
-    StepReport report{INFINITY, INFINITY, 0, true};
+    double sound_time = INFINITY;
     for (std::size_t k = 0; k < block_size; ++k) {
-        report.finite = report.finite && std::isfinite(least_time[k]);
-        report.sound_time =
-            std::min(report.sound_time, static_cast<double>(least_time[k]));
-        report.least_volume_ratio =
-            std::min(report.least_volume_ratio, static_cast<double>(least_ratio[k]));
-        report.largest_volume_ratio =
-            std::max(report.largest_volume_ratio, static_cast<double>(largest_ratio[k]));
+        sound_time = std::min(sound_time, static_cast<double>(least_time[k]));
     }
-    return report;
+    return {sound_time, false};
 }
 
 material::GrainState Constitutive::state(std::size_t index, std::size_t lane) const {

@@ -27,10 +27,10 @@ Rest rest_state(const material::EquationOfState& equation_of_state, double tempe
 
 /// What a step found.
 struct StepReport {
-    double sound_time = 0;  ///< least spacing / sound speed [s]
-    double least_volume_ratio = 1;
-    double largest_volume_ratio = 1;
-    bool finite = true;
+    double sound_time = 0;  ///< least squeezed edge / sound speed [s]
+    /// A particle's volume or its strain within the step is out of all reason, or not a
+    /// number; the step was not completed.
+    bool tangled = false;
 };
 
 /// From the rates of deformation to stresses: deformation, density, strength, energy,

@@ -141,6 +141,7 @@ observe::DeformedProfile Outline::measure(const Particles& particles) const {
             (heights[i - 1] + 2 * heights[i] + heights[i + 1]) / 4;
         profile.outline_radius[i] = (radii[i - 1] + 2 * radii[i] + radii[i + 1]) / 4;
     }
+    profile.head_points = transition_ring_;
     profile.transition_radius = profile.outline_radius[transition_ring_];
     return profile;
 }

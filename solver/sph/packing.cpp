@@ -12,6 +12,19 @@ namespace {
 
 using Site = std::pair<int, int>;  // (ix, iy)
 
+/// The part of a layer that a site owns, lengths in edges.
+struct Patch {
+    double area = 0;
+    double x = 0, y = 0;  // first moments of the area
+
+    void add(double px, double py, double part) {
+        area += part;
+        x += part * px;
+        y += part * py;
+    }
+};
+using Patches = std::map<Site, Patch>;
+
 constexpr double least_coverage = 0.35;  // of a tile, for its site to become a particle
 constexpr int samples_per_edge = 24;
 
@@ -61,10 +74,10 @@ void sample_tile(const Site& site, const Visit& visit) {
 
 /// The sites of `kept` nearest to a point. Equally near ones share what lies there, which
 /// keeps the lattice's symmetry.
-std::vector<Site> nearest_sites(const std::map<Site, double>& kept, double x, double y) {
+std::vector<Site> nearest_sites(const Patches& kept, double x, double y) {
     std::vector<Site> owners;
     double least = INFINITY;
-    for (const auto& [site, share] : kept) {
+    for (const auto& [site, patch] : kept) {
         const double distance = std::hypot(site.first / 2.0 - x, site.second / 2.0 - y);
         if (distance > least + 1e-9) continue;
         if (distance < least - 1e-9) owners.clear();
@@ -74,40 +87,40 @@ std::vector<Site> nearest_sites(const std::map<Site, double>& kept, double x, do
     return owners;
 }
 
-/// The share of a disc's area, in tiles, that each site of one parity owns.
-std::map<Site, double> tile_disc(double radius_in_edges, int parity) {
+/// The part of a disc that each site of one parity owns.
+Patches tile_disc(double radius_in_edges, int parity) {
     const double r2 = radius_in_edges * radius_in_edges;
     constexpr double sample_area = 1.0 / (samples_per_edge * samples_per_edge);
-    std::map<Site, double> coverage;
+    Patches covered;
     double fullest = 0;
     const int reach = 2 * static_cast<int>(std::ceil(radius_in_edges)) + parity;
     for (int ix = -reach; ix <= reach; ix += 2) {
         for (int iy = -reach; iy <= reach; iy += 2) {
-            double covered = 0;
+            Patch patch;
             sample_tile({ix, iy}, [&](double x, double y) {
-                if (x * x + y * y < r2) covered += sample_area;
+                if (x * x + y * y < r2) patch.add(x, y, sample_area);
             });
-            if (covered > 0) coverage[{ix, iy}] = covered;
-            fullest = std::max(fullest, covered);
+            if (patch.area > 0) covered[{ix, iy}] = patch;
+            fullest = std::max(fullest, patch.area);
         }
     }
     const double limit = std::min(least_coverage, 0.99 * fullest);
-    std::map<Site, double> kept;
-    for (const auto& [site, covered] : coverage) {
-        if (covered >= limit) kept[site] = covered;
+    Patches kept;
+    for (const auto& [site, patch] : covered) {
+        if (patch.area >= limit) kept[site] = patch;
     }
-    std::map<Site, double> shares = kept;
-    for (const auto& [site, covered] : coverage) {
+    Patches owned = kept;
+    for (const auto& [site, patch] : covered) {
         if (kept.contains(site)) continue;
         sample_tile(site, [&](double x, double y) {
             if (x * x + y * y >= r2) return;
             const std::vector<Site> owners = nearest_sites(kept, x, y);
             for (const Site& owner : owners) {
-                shares[owner] += sample_area / static_cast<double>(owners.size());
+                owned[owner].add(x, y, sample_area / static_cast<double>(owners.size()));
             }
         });
     }
-    return shares;
+    return owned;
 }
 
 }  // namespace
@@ -117,7 +130,7 @@ Packing pack(const specimen::Shape& shape, double edge) {
     packing.edge = edge;
     packing.layers = slice(shape, edge);
 
-    std::vector<std::map<Site, double>> tiles;
+    std::vector<Patches> tiles;
     std::map<Site, std::size_t> column_of;
     for (std::size_t l = 0; l < packing.layers.size(); ++l) {
         const bool same =
@@ -125,7 +138,7 @@ Packing pack(const specimen::Shape& shape, double edge) {
         tiles.push_back(
             same ? tiles[l - 2]
                  : tile_disc(packing.layers[l].radius / edge, static_cast<int>(l % 2)));
-        for (const auto& [site, share] : tiles.back()) column_of[site] = 0;
+        for (const auto& [site, patch] : tiles.back()) column_of[site] = 0;
     }
 
     const std::size_t sites = (packing.layers.size() + 1) / 2;
@@ -141,14 +154,14 @@ Packing pack(const specimen::Shape& shape, double edge) {
     }
     for (std::size_t l = 0; l < packing.layers.size(); ++l) {
         double total = 0;
-        for (const auto& [site, share] : tiles[l]) total += share;
-        for (const auto& [site, share] : tiles[l]) {
+        for (const auto& [site, patch] : tiles[l]) total += patch.area;
+        for (const auto& [site, patch] : tiles[l]) {
             const Column& column = packing.columns[column_of[site]];
             const std::size_t slot = column.first_slot + l / 2;
-            packing.x[slot] = column.ix * edge / 2;
-            packing.y[slot] = column.iy * edge / 2;
+            packing.x[slot] = edge * patch.x / patch.area;
+            packing.y[slot] = edge * patch.y / patch.area;
             packing.z[slot] = packing.layers[l].height;
-            packing.volume[slot] = packing.layers[l].volume * share / total;
+            packing.volume[slot] = packing.layers[l].volume * patch.area / total;
             ++packing.particles;
         }
     }

@@ -36,7 +36,8 @@ struct Column {
 /// and after the columns: a neighbour of every site of a block is then a contiguous run
 /// of memory at a fixed distance, and needs no index. Sites outside the specimen have no
 /// volume. Each layer's volume is that of the profile: a site owns the part of its square
-/// tile inside the outline, and sites that would own little give it to their neighbours.
+/// tile inside the outline, sites that would own little give it to their neighbours, and
+/// the particle sits at the centre of what it owns.
 struct Packing {
     double edge = 0;  ///< of the lattice cube [m]
     std::vector<Layer> layers;

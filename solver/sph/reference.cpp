@@ -20,14 +20,16 @@ constexpr double smoothing_in_edges = 0.72;
 Reference::Reference(const Packing& packing, double density, double hourglass_viscosity)
     : active_(packing.active),
       column_of_block_(packing.slots / block_size),
-      height_(packing.slots),
       volume_(packing.slots),
       specific_volume_(packing.slots),
       viscosity_(static_cast<float>(hourglass_viscosity)) {
+    for (Field& field : place_) field = Field(packing.slots);
     for (Field& field : inverse_) field = Field(packing.slots);
     for (Field& field : first_moment_) field = Field(packing.slots);
     for (std::size_t slot = 0; slot < packing.slots; ++slot) {
-        height_.lanes()[slot] = static_cast<float>(packing.z[slot]);
+        place_[0].lanes()[slot] = static_cast<float>(packing.x[slot]);
+        place_[1].lanes()[slot] = static_cast<float>(packing.y[slot]);
+        place_[2].lanes()[slot] = static_cast<float>(packing.z[slot]);
         volume_.lanes()[slot] = static_cast<float>(packing.volume[slot]);
         specific_volume_.lanes()[slot] =
             packing.volume[slot] > 0 ? static_cast<float>(1 / density) : 0.0f;
@@ -72,8 +74,6 @@ void Reference::find_neighbours(const Packing& packing) {
                         entry.steepness[entry.count++] = 0;
                     entry.steepness[entry.count++] = static_cast<float>(steepness);
                 }
-                entry.x = static_cast<float>(dx * half);
-                entry.y = static_cast<float>(dy * half);
                 if (entry.count > 0) list.push_back(entry);
             }
         }
@@ -92,9 +92,11 @@ void Reference::measure_moments(const Packing& packing) {
                     const std::size_t j = slot + static_cast<std::size_t>(n.offset) + e;
                     const double w =
                         packing.volume[j] * static_cast<double>(n.steepness[e]);
-                    const Eigen::Vector3d offset(
-                        static_cast<double>(n.x), static_cast<double>(n.y),
-                        static_cast<double>(height_.lanes()[j] - height_.lanes()[slot]));
+                    Eigen::Vector3d offset;
+                    for (int c = 0; c < 3; ++c) {
+                        const float* place = place_[static_cast<std::size_t>(c)].lanes();
+                        offset(c) = static_cast<double>(place[j] - place[slot]);
+                    }
                     moment += w * offset * offset.transpose();
                     first += w * offset;
                 }
@@ -130,43 +132,36 @@ inline void times_symmetric(const Vector (&a)[9], const std::array<Field, 6>& k,
 
 void Reference::velocity_gradient(Particles& particles) const {
     const float* volume = volume_.lanes();
-    const float* height = height_.lanes();
-    const float* vx = particles.speed[0].lanes();
-    const float* vy = particles.speed[1].lanes();
-    const float* vz = particles.speed[2].lanes();
+    const float* place[3];
+    const float* speed[3];
+    for (std::size_t c = 0; c < 3; ++c) {
+        place[c] = place_[c].lanes();
+        speed[c] = particles.speed[c].lanes();
+    }
     for (const std::size_t block : active_) {
         const std::size_t slot = block * block_size;
-        const Vector height0 = height_[block];
-        const Vector vx0 = particles.speed[0][block];
-        const Vector vy0 = particles.speed[1][block];
-        const Vector vz0 = particles.speed[2][block];
+        const Vector x0[3] = {place_[0][block], place_[1][block], place_[2][block]};
+        const Vector v0[3] = {particles.speed[0][block], particles.speed[1][block],
+                              particles.speed[2][block]};
         Vector sum[9] = {};
         Vector squares{};
         for (const NeighbourColumn& n : neighbours_[column_of_block_[block]]) {
-            Vector ux{}, uy{}, uz{};
             const std::size_t first = slot + static_cast<std::size_t>(n.offset);
             for (std::size_t e = 0; e < n.count; ++e) {
                 const std::size_t j = first + e;
                 const Vector w = n.steepness[e] * load(volume + j);
-                const Vector rise = load(height + j) - height0;
-                const Vector dx = load(vx + j) - vx0;
-                const Vector dy = load(vy + j) - vy0;
-                const Vector dz = load(vz + j) - vz0;
-                const Vector wx = w * dx, wy = w * dy, wz = w * dz;
-                ux += wx;
-                uy += wy;
-                uz += wz;
-                sum[2] += wx * rise;
-                sum[5] += wy * rise;
-                sum[8] += wz * rise;
-                squares += wx * dx + wy * dy + wz * dz;
+                const Vector x = load(place[0] + j) - x0[0];
+                const Vector y = load(place[1] + j) - x0[1];
+                const Vector z = load(place[2] + j) - x0[2];
+                for (std::size_t r = 0; r < 3; ++r) {
+                    const Vector v = load(speed[r] + j) - v0[r];
+                    const Vector wv = w * v;
+                    sum[3 * r] += wv * x;
+                    sum[3 * r + 1] += wv * y;
+                    sum[3 * r + 2] += wv * z;
+                    squares += wv * v;
+                }
             }
-            sum[0] += ux * n.x;
-            sum[1] += ux * n.y;
-            sum[3] += uy * n.x;
-            sum[4] += uy * n.y;
-            sum[6] += uz * n.x;
-            sum[7] += uz * n.y;
         }
         Vector rate[9];
         times_symmetric(sum, inverse_, block, rate);
@@ -182,34 +177,39 @@ void Reference::velocity_gradient(Particles& particles) const {
 
 void Reference::accelerate(Particles& particles) const {
     const float* volume = volume_.lanes();
-    const float* height = height_.lanes();
-    const float* q[9];
-    for (std::size_t c = 0; c < 9; ++c) q[c] = particles.pull[c].lanes();
-    const float* v[3];
-    for (std::size_t r = 0; r < 3; ++r) v[r] = particles.speed[r].lanes();
+    const float* place[3];
+    const float* speed[3];
+    const float* pull[9];
+    for (std::size_t c = 0; c < 3; ++c) {
+        place[c] = place_[c].lanes();
+        speed[c] = particles.speed[c].lanes();
+    }
+    for (std::size_t c = 0; c < 9; ++c) pull[c] = particles.pull[c].lanes();
     for (const std::size_t block : active_) {
         const std::size_t slot = block * block_size;
-        const Vector height0 = height_[block];
+        const Vector x0[3] = {place_[0][block], place_[1][block], place_[2][block]};
+        const Vector v0[3] = {particles.speed[0][block], particles.speed[1][block],
+                              particles.speed[2][block]};
         Vector force[3];         // Q_i sum_j w X_ij + sum_j w Q_j X_ij
         Vector damping[3] = {};  // sum_j w v_ij
-        Vector own[3];
         for (std::size_t r = 0; r < 3; ++r) {
             force[r] = particles.pull[3 * r][block] * first_moment_[0][block] +
                        particles.pull[3 * r + 1][block] * first_moment_[1][block] +
                        particles.pull[3 * r + 2][block] * first_moment_[2][block];
-            own[r] = particles.speed[r][block];
         }
         for (const NeighbourColumn& n : neighbours_[column_of_block_[block]]) {
             const std::size_t first = slot + static_cast<std::size_t>(n.offset);
             for (std::size_t e = 0; e < n.count; ++e) {
                 const std::size_t j = first + e;
                 const Vector w = n.steepness[e] * load(volume + j);
-                const Vector rise = load(height + j) - height0;
+                const Vector wx = w * (load(place[0] + j) - x0[0]);
+                const Vector wy = w * (load(place[1] + j) - x0[1]);
+                const Vector wz = w * (load(place[2] + j) - x0[2]);
                 for (std::size_t r = 0; r < 3; ++r) {
-                    force[r] +=
-                        w * (load(q[3 * r] + j) * n.x + load(q[3 * r + 1] + j) * n.y +
-                             load(q[3 * r + 2] + j) * rise);
-                    damping[r] += w * (load(v[r] + j) - own[r]);
+                    force[r] += load(pull[3 * r] + j) * wx +
+                                load(pull[3 * r + 1] + j) * wy +
+                                load(pull[3 * r + 2] + j) * wz;
+                    damping[r] += w * (load(speed[r] + j) - v0[r]);
                 }
             }
         }

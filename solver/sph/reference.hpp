@@ -39,7 +39,6 @@ class Reference {
     /// The sites of one neighbouring column that a site sees.
     struct NeighbourColumn {
         std::ptrdiff_t offset;           // to the first neighbour's slot
-        float x, y;                      // offset of the column [m]
         std::size_t count;               // of neighbours in it
         std::array<float, 5> steepness;  // -W'/r [1/m5]
     };
@@ -50,7 +49,7 @@ class Reference {
     std::vector<std::size_t> active_;
     std::vector<std::size_t> column_of_block_;
     std::vector<std::vector<NeighbourColumn>> neighbours_;  // by column
-    Field height_;                                          // reference z [m]
+    std::array<Field, 3> place_;                            // reference position [m]
     Field volume_;                                          // reference [m3]
     Field specific_volume_;              // 1/density, zero where there is no particle
     std::array<Field, 6> inverse_;       // K^-1: xx yy zz xy xz yz

@@ -16,13 +16,25 @@ namespace {
 // the particles themselves somewhat more.
 constexpr double contact_distance = 0.6;
 constexpr double search_margin = 0.4;
-// Nearer pairs are joined by the continuum: even squeezed fivefold they stay apart.
-constexpr double least_reference_distance = 4;
+// Nearer pairs are joined by the continuum; so are pairs further apart that it has itself
+// brought as near as they are.
+constexpr double least_reference_distance = 2;
 
 Eigen::Vector3d offset(const std::array<std::vector<double>, 3>& points, std::size_t i,
                        std::size_t j) {
     return {points[0][j] - points[0][i], points[1][j] - points[1][i],
             points[2][j] - points[2][i]};
+}
+
+Eigen::Matrix3d mean_deformation(const Particles& particles, std::size_t i,
+                                 std::size_t j) {
+    Eigen::Matrix3d mean;
+    for (std::size_t c = 0; c < 9; ++c) {
+        const auto& f = particles.deformation[c];
+        mean(static_cast<Eigen::Index>(c / 3), static_cast<Eigen::Index>(c % 3)) =
+            (f[i] + f[j]) / 2;
+    }
+    return mean;
 }
 
 }  // namespace
@@ -82,7 +94,9 @@ void SelfContact::find_pairs(const Particles& particles) {
         const Eigen::Vector3d reference(packing_.x[j] - packing_.x[i],
                                         packing_.y[j] - packing_.y[i],
                                         packing_.z[j] - packing_.z[i]);
-        if (reference.norm() > apart) pairs_.emplace_back(i, j);
+        if (reference.norm() < apart) return;
+        const double carried = (mean_deformation(particles, i, j) * reference).norm();
+        if (carried > reach) pairs_.emplace_back(i, j);
     };
     for (const auto& [cell, slot] : sorted) {
         for (long dx = -1; dx <= 1; ++dx) {

@@ -74,7 +74,8 @@ std::string limit_reached(const Body& body, double cpu_s) {
     if (body.time > numerics.stop_time_limit_s) {
         return fmt::format("the rear still moved after {:.0f} us", 1e6 * body.time);
     }
-    if (body.steps >= numerics.step_limit) {
+    const std::int64_t updates = body.steps * static_cast<std::int64_t>(body.cells());
+    if (body.steps >= numerics.step_limit || updates >= numerics.point_update_limit) {
         return fmt::format("{} steps were not enough ({:.1f} us reached)", body.steps,
                            1e6 * body.time);
     }

@@ -22,6 +22,7 @@ struct Numerics {
     double hourglass = 0.1;
     double stop_time_limit_s = 400e-6;  ///< simulated time after which a run gives up
     std::int64_t step_limit = 400000;
+    std::int64_t point_update_limit = 2'000'000'000;  ///< steps x cells or particles
     double cpu_limit_s = 3600;
 };
 

@@ -23,15 +23,16 @@ std::size_t position(const std::string& what, const std::string& word,
 struct Resolution {
     int elements_across_radius;
     int grains_per_point;
-    std::int64_t step_limit;  ///< a specimen that flattens into a disc costs no more
+    std::int64_t
+        point_update_limit;  ///< a specimen that flattens into a disc costs no more
 };
 
 // By fidelity. One grain a particle in 3D is the paper's method; in (r, z) a cell stands
 // for a whole ring, so that its grains must be averaged.
 constexpr Resolution axisymmetric_resolution[] = {
-    {6, 8, 40000}, {12, 16, 200000}, {16, 16, 400000}};
+    {6, 8, 6'000'000}, {12, 16, 100'000'000}, {16, 16, 500'000'000}};
 constexpr Resolution three_dimensional_resolution[] = {
-    {6, 1, 400000}, {9, 1, 400000}, {14, 1, 400000}};
+    {6, 1, 2'000'000'000}, {9, 1, 8'000'000'000}, {14, 1, 40'000'000'000}};
 
 }  // namespace
 
@@ -58,7 +59,7 @@ Numerics numerics_for(Geometry geometry, const std::string& fidelity) {
     numerics.geometry = geometry;
     numerics.elements_across_radius = resolution.elements_across_radius;
     numerics.grains_per_point = resolution.grains_per_point;
-    numerics.step_limit = resolution.step_limit;
+    numerics.point_update_limit = resolution.point_update_limit;
     if (geometry == Geometry::axisymmetric) {
         // Cells are stable to about 1 and resist hourglassing elastically; particles have
         // a smaller stable step and a viscous control (the defaults).

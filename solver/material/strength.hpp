@@ -1,12 +1,13 @@
 #pragma once
 
-#include <Eigen/Geometry>
+#include "solver/material/lanes.hpp"
+#include "solver/material/parameters.hpp"
+
 #include <cstddef>
 #include <memory>
 #include <vector>
 
-#include "solver/material/lanes.hpp"
-#include "solver/material/parameters.hpp"
+#include <Eigen/Geometry>
 
 namespace taylorcal::material {
 

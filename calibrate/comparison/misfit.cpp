@@ -22,8 +22,9 @@ Misfit misfit(const std::vector<ShotComparison>& shots, Use use, double best_spr
         mean_chi2 += of_draws.squaredNorm() / static_cast<double>(shot.draws.rows());
         total.chi2_with_spread += cholesky.matrixL().solve(shot.residual).squaredNorm();
         total.chi2 += shot.whitened.squaredNorm();
-        total.rms_relative +=
-            shot.residual.cwiseQuotient(shot.datum->measured_mm).squaredNorm();
+        for (Eigen::Index i = 0; i < shot.residual.size(); ++i)
+            total.rms_relative +=
+                std::pow(shot.residual(i) / shot.datum->relative_to_mm(i), 2);
         total.n += shot.datum->columns.size();
     }
     if (total.n == 0) return total;

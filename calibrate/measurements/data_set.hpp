@@ -2,6 +2,7 @@
 
 #include "calibrate/measurements/shot.hpp"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,12 @@ struct Datum {
     std::vector<Eigen::Index> columns;  ///< which fitted sizes it has, rising
     Eigen::VectorXd measured_mm;
     Eigen::VectorXd sd_mm;
+
+    /// What a deviation is relative to: the measured size, or its error where that is
+    /// larger, since an undeformed length may be measured as zero.
+    double relative_to_mm(Eigen::Index i) const {
+        return std::max(measured_mm(i), sd_mm(i));
+    }
 };
 
 /// The shots that are fitted or held back, grouped by lot. Lots that are only held back

@@ -74,6 +74,11 @@ struct Row {
                        "empty where nothing was measured.");
         return value;
     }
+    /// For a part that may be gone: nothing of a soft rod keeps its diameter.
+    std::optional<double> at_least_zero_if_any(const std::string& column) const {
+        if (table.has(column) && table.number(row, column) == 0.0) return 0.0;
+        return positive_if_any(column);
+    }
     double positive(const std::string& column) const {
         const std::optional<double> value = positive_if_any(column);
         if (!value)
@@ -85,7 +90,9 @@ struct Row {
 std::vector<Measurement> read_sizes(const Row& row) {
     std::vector<Measurement> sizes;
     for (const std::string& column : size_columns()) {
-        const std::optional<double> value = row.positive_if_any(column);
+        const std::optional<double> value = column == "undeformed_length_mm"
+                                                ? row.at_least_zero_if_any(column)
+                                                : row.positive_if_any(column);
         if (!value) continue;
         const std::optional<double> sd = row.positive_if_any(column + "_sd");
         if (!sd)

@@ -10,8 +10,9 @@
 namespace taylorcal::calibrate {
 namespace {
 
-constexpr Eigen::Index most_points = 1500;
+constexpr Eigen::Index most_points = 1000;
 constexpr double smallest_share = 0.01;
+constexpr std::size_t few = 20;
 constexpr double same_point = 0.01;  // of the priors' widths
 
 /// ln posterior density over the unit cube for each row, the spread averaged out.
@@ -37,6 +38,22 @@ RowMatrix thinned(const RowMatrix& units) {
     return chosen;
 }
 
+/// The draw of the highest density among the few nearest to a mode.
+Eigen::Index best_near(const Eigen::RowVectorXd& mode, const RowMatrix& points,
+                       const Eigen::RowVectorXd& width, std::vector<Eigen::Index> members,
+                       const Eigen::VectorXd& densities) {
+    const auto distance = [&](Eigen::Index i) {
+        return ((points.row(i) - mode).array() / width.array()).matrix().squaredNorm();
+    };
+    std::stable_sort(members.begin(), members.end(), [&](Eigen::Index a, Eigen::Index b) {
+        return distance(a) < distance(b);
+    });
+    members.resize(std::min(members.size(), few));
+    return *std::max_element(
+        members.begin(), members.end(),
+        [&](Eigen::Index a, Eigen::Index b) { return densities(a) < densities(b); });
+}
+
 /// Adds to the list, or to the share of a maximum that is the same point.
 void merge(std::vector<Maximum>& maxima, Maximum found) {
     for (Maximum& other : maxima)
@@ -58,20 +75,25 @@ std::vector<Maximum> find_maxima(const LotLikelihood& likelihood,
     const RowMatrix points = shared > 0 ? RowMatrix(units.leftCols(shared)) : units;
     const Basins basins = find_basins(points);
     const Eigen::VectorXd densities = log_density(likelihood, units);
+    const Eigen::RowVectorXd mean = units.colwise().mean();
+    const Eigen::VectorXd spread =
+        (units.rowwise() - mean).array().square().colwise().mean().sqrt().transpose();
+    const Eigen::RowVectorXd width =
+        spread.head(points.cols()).transpose().cwiseMax(1e-9);
     std::vector<Maximum> maxima;
     for (Eigen::Index mode = 0; mode < basins.modes.rows(); ++mode) {
-        Eigen::Index best = -1;
-        double count = 0;
-        for (Eigen::Index i = 0; i < units.rows(); ++i) {
-            if (basins.member[static_cast<std::size_t>(i)] !=
+        std::vector<Eigen::Index> members;
+        for (Eigen::Index i = 0; i < units.rows(); ++i)
+            if (basins.member[static_cast<std::size_t>(i)] ==
                 static_cast<std::size_t>(mode))
-                continue;
-            ++count;
-            if (best < 0 || densities(i) > densities(best)) best = i;
-        }
-        const double share = count / static_cast<double>(units.rows());
+                members.push_back(i);
+        const double share =
+            static_cast<double>(members.size()) / static_cast<double>(units.rows());
         if (share < smallest_share) continue;
-        const RefinedPoint refined = refine(likelihood, units.row(best).transpose());
+        const Eigen::Index best =
+            best_near(basins.modes.row(mode), points, width, members, densities);
+        const RefinedPoint refined =
+            refine(likelihood, units.row(best).transpose(), 0.2 * spread);
         const double density = log_density(likelihood, refined.unit.transpose())(0);
         merge(maxima, {refined.unit, refined.level, density - log_evidence, share});
     }

@@ -33,7 +33,7 @@ Eigen::RowVectorXd climb(const RowMatrix& points, Eigen::RowVectorXd at) {
         const Eigen::RowVectorXd next = weight.transpose() * points / weight.sum();
         const double moved = (next - at).norm();
         at = next;
-        if (moved < 1e-3) break;
+        if (moved < 3e-3) break;
     }
     return at;
 }

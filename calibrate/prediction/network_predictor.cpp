@@ -4,6 +4,7 @@
 #include "common/errors.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -12,18 +13,23 @@ namespace {
 
 constexpr Eigen::Index not_a_parameter = -1;
 
-/// Slack at the ends of a trained range, which samples seldom reach: 1 % of its span. An
-/// input that was constant in the database may differ by 5 %: rooms are not all at 295 K.
-double slack(const emulator::InputInfo& input) {
-    if (!input.used || input.lower == input.upper) return 0.05 * std::abs(input.lower);
-    return 0.01 * (input.upper - input.lower);
+/// Room at the ends of a trained range, which samples seldom reach: 2 % of its span, in
+/// logarithms for densities. An input that was constant in the database may differ by 5
+/// %: rooms are not all at 295 K.
+bool is_covered(const emulator::InputInfo& input, double value) {
+    if (!input.used || input.lower == input.upper)
+        return std::abs(value - input.lower) <= 0.05 * std::abs(input.lower);
+    const bool log = input.transform == emulator::Transform::log10;
+    const double lower = log ? std::log10(input.lower) : input.lower;
+    const double upper = log ? std::log10(input.upper) : input.upper;
+    const double place = log ? std::log10(value) : value;
+    const double room = 0.02 * (upper - lower);
+    return place >= lower - room && place <= upper + room;
 }
 
 void check_prior(const Parameter& parameter, const emulator::InputInfo& input) {
-    const double margin = 1e-9 * std::abs(input.upper - input.lower);
     require(
-        parameter.lower >= input.lower - margin &&
-            parameter.upper <= input.upper + margin,
+        is_covered(input, parameter.lower) && is_covered(input, parameter.upper),
         fmt::format("the prior of {} ({:g} to {:g}) reaches beyond the emulator's range "
                     "({:g} to {:g}). Narrow the prior, or widen the parameter's range in "
                     "study.yaml so that the database covers it.",
@@ -133,8 +139,7 @@ void NetworkPredictor::check_ranges(const DataSet& set) const {
             if (!is_shot_input(input.name)) continue;
             const double value = shot_input(input.name, shot);
             require(
-                value >= input.lower - slack(input) &&
-                    value <= input.upper + slack(input),
+                is_covered(input, value),
                 fmt::format("shot {}: {} = {:g} is beyond the emulator's range {:g} to "
                             "{:g}. Widen the database's range in study.yaml, or set the "
                             "shot's use to ignore.",

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <functional>
-#include <string>
-#include <vector>
-
 #include "calibrate/measurements/data_set.hpp"
 #include "calibrate/prediction/predictor.hpp"
 #include "calibrate/settings/settings.hpp"
+
+#include <functional>
+#include <string>
+#include <vector>
 
 namespace taylorcal::calibrate::toys {
 

@@ -34,12 +34,10 @@ Body::Body(const impact::ImpactCase& impact_case, const StrengthFactory& make_st
                      std::sqrt(rest_.state.bulk_modulus / rest_.density)),
       constitutive_(
           impact_case, packing_, *equation_of_state_, rest_,
-          make_strength(
-              impact_case.material,
-              random_orientations(
-                  impact_case.seed,
-                  packing_.active.size() * block_size *
-                      static_cast<std::size_t>(impact_case.numerics.grains_per_point)))),
+          make_strength(impact_case.material,
+                        random_orientations(impact_case.seed, packing_,
+                                            static_cast<std::size_t>(
+                                                impact_case.numerics.grains_per_point)))),
       anvil_(packing_, rest_.density),
       self_contact_(packing_, rest_.density) {
     particles_.position = {packing_.x, packing_.y, packing_.z};

@@ -3,25 +3,70 @@
 #include "common/random.hpp"
 
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <utility>
 
 namespace taylorcal::sph {
 
+namespace {
+
+Eigen::Quaterniond uniform_rotation(const RandomStream& random, std::uint64_t index) {
+    const auto words = random.words(index);
+    const auto uniform = [&](std::size_t w) { return (words[w] + 0.5) / 4294967296.0; };
+    const double a = std::sqrt(1 - uniform(0)), b = std::sqrt(uniform(0));
+    const double p = 2 * std::numbers::pi * uniform(1);
+    const double q = 2 * std::numbers::pi * uniform(2);
+    return {b * std::cos(q), a * std::sin(p), a * std::cos(p), b * std::sin(q)};
+}
+
+/// How many quarter turns bring the site from the first quadrant, and where it was there.
+struct QuarterTurns {
+    int turns;
+    std::pair<int, int> site;
+};
+
+QuarterTurns from_first_quadrant(int ix, int iy) {
+    int turns = 0;
+    while (!(ix > 0 && iy >= 0) && !(ix == 0 && iy == 0)) {
+        const int turned_back = -ix;
+        ix = iy;
+        iy = turned_back;
+        ++turns;
+    }
+    return {turns, {ix, iy}};
+}
+
+}  // namespace
+
 std::vector<Eigen::Quaterniond> random_orientations(std::uint64_t seed,
-                                                    std::size_t count) {
-    constexpr std::uint64_t stream = 3;
+                                                    const Packing& packing,
+                                                    std::size_t grains) {
+    constexpr std::uint64_t stream = 0x73706867;
     const RandomStream random(seed, stream);
-    std::vector<Eigen::Quaterniond> orientations(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        const auto words = random.words(i);
-        const auto uniform = [&](std::size_t w) {
-            return (words[w] + 0.5) / 4294967296.0;
-        };
-        const double a = std::sqrt(1 - uniform(0)), b = std::sqrt(uniform(0));
-        const double p = 2 * std::numbers::pi * uniform(1);
-        const double q = 2 * std::numbers::pi * uniform(2);
-        orientations[i] = Eigen::Quaterniond(b * std::cos(q), a * std::sin(p),
-                                             a * std::cos(p), b * std::sin(q));
+    std::map<std::pair<int, int>, std::size_t> first_slot;
+    std::vector<const Column*> column_of(packing.slots / block_size, nullptr);
+    for (const Column& column : packing.columns) {
+        first_slot[{column.ix, column.iy}] = column.first_slot;
+        for (std::size_t b = 0; b < packing.blocks_per_column; ++b) {
+            column_of[column.first_slot / block_size + b] = &column;
+        }
+    }
+    std::vector<Eigen::Quaterniond> orientations;
+    orientations.reserve(packing.active.size() * grains * block_size);
+    for (const std::size_t block : packing.active) {
+        const Column& column = *column_of[block];
+        const QuarterTurns origin = from_first_quadrant(column.ix, column.iy);
+        const std::size_t along = block * block_size - column.first_slot;
+        const std::size_t first = first_slot.at(origin.site) + along;
+        const Eigen::Quaterniond turn(Eigen::AngleAxisd(
+            origin.turns * std::numbers::pi / 2, Eigen::Vector3d::UnitZ()));
+        for (std::size_t g = 0; g < grains; ++g) {
+            for (std::size_t k = 0; k < block_size; ++k) {
+                orientations.push_back(
+                    turn * uniform_rotation(random, (first + k) * grains + g));
+            }
+        }
     }
     return orientations;
 }

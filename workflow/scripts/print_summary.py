@@ -7,6 +7,8 @@ import argparse
 import json
 from pathlib import Path
 
+from misfit_by_size import misfit_by_size
+
 MOST_FINDINGS = 5
 USE_WORDS = {"calibrate": "fitted", "validate": "held back"}
 
@@ -27,9 +29,11 @@ def summary(results: Path) -> str:
     for use, misfit in comparison["misfit"].items():
         if misfit["n"]:
             lines.append(
-                f"misfit, {USE_WORDS[use]}: {100 * misfit['rms_relative']:.2f} % root mean square, "
-                f"{misfit['whitened_rms']:.2f} standard errors, {misfit['n']} data"
+                f"misfit, {USE_WORDS[use]}: {misfit['whitened_rms']:.2f} standard errors "
+                f"(root mean square of {misfit['n']} data)"
             )
+            for size, share in misfit_by_size(comparison, use).items():
+                lines.append(f"  {size:<24}{100 * share:6.2f} % of the size before impact")
     lines += ["", "what stands out:" if comparison["findings"] else "nothing stands out"]
     lines += [f"  {words}" for words in comparison["findings"][:MOST_FINDINGS]]
     return "\n".join([*lines, "", f"report: {results / 'report.html'}"])

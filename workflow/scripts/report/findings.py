@@ -4,6 +4,7 @@ import math
 
 from markupsafe import Markup, escape
 
+from misfit_by_size import misfit_by_size
 from report.results import Results
 from report.words import PARAMETER_SYMBOLS, SHAPE_WORDS, UNIT_WORDS
 from report.words import counted, listed, lot_words
@@ -95,11 +96,15 @@ def _misfit_sentence(results: Results, use: str) -> Markup:
         if misfit["whitened_rms"] < 1.2
         else "more than the stated errors explain"
     )
+    by_size = [
+        f"{size_words(size)} by {percent(share)}"
+        for size, share in misfit_by_size(results.comparison, use).items()
+    ]
     return Markup(
         f"On the {counted(misfit['n'], 'datum').replace('datums', 'data')} of "
         f"{counted(shots, 'shot')} {which} the model is off by "
-        f"<b>{percent(misfit['rms_relative'])}</b> (root mean square), or "
-        f"{misfit['whitened_rms']:.2f} standard errors: {verdict}."
+        f"<b>{misfit['whitened_rms']:.2f}</b> standard errors (root mean square), {verdict}: "
+        f"{listed(by_size)} of the size before impact."
     )
 
 
@@ -204,7 +209,7 @@ def network_rows(results: Results) -> list[dict]:
     return [
         {
             "size": size_words(entry["output"]),
-            "shape": SHAPE_WORDS.get(entry["shape"], entry["shape"] or "all shapes"),
+            "shape": SHAPE_WORDS[entry["shape"]],
             "rms": percent(entry["rms_relative"], 2),
             "largest": percent(entry["largest_relative"], 1),
             "rms_mm": number(entry["rms"], 2),

@@ -2,6 +2,7 @@
 
 from statistics import NormalDist, mean
 
+from misfit_by_size import size_before_impact
 from report.chart import PALETTE, Band, Cells, Chart, Intervals, Line, Panel, Points
 from report.chart import ordered_colour
 from report.results import Results
@@ -58,10 +59,6 @@ def _shot_label(row: dict) -> str:
     )
 
 
-def _reference(size: str, row: dict) -> float:
-    return row["initial_diameter_mm"] if "diameter" in size else row["initial_length_mm"]
-
-
 def _ratio(row: dict) -> float:
     return round(row["initial_length_mm"] / row["initial_diameter_mm"], 2)
 
@@ -115,7 +112,7 @@ def _curve_layers(results: Results, size: str, lot: str, shape: str, ratios: lis
         if (curve["size"], curve["lot"], curve["shape"]) == (size, lot, shape)
     ]
     for curve in curves:
-        reference = _reference(size, curve)
+        reference = size_before_impact(size, curve)
         position = _nearest(ratios, curve["initial_length_mm"] / curve["initial_diameter_mm"])
         colour = ordered_colour(position, len(ratios))
         scaled = {
@@ -139,7 +136,7 @@ def _shot_layers(entries, rows, size, ratio, ratios, with_curve) -> list:
         mine = [(shot, cell) for shot, cell in entries if shot["use"] == use]
         if not mine:
             continue
-        reference = [_reference(size, rows[shot["id"]]) for shot, _ in mine]
+        reference = [size_before_impact(size, rows[shot["id"]]) for shot, _ in mine]
         column = {
             key: [cell[key] / scale for (_, cell), scale in zip(mine, reference)]
             for key in ("measured", "sd", "predictive_lower", "predictive_upper")
@@ -267,10 +264,9 @@ def lot_residual_chart(results: Results) -> Chart:
     def summary(entries):
         if not entries:
             return None
-        relative = [c["residual"] / c["measured"] for c in entries if c["measured"]]
         return {
             "n": len(entries),
-            "mean_relative": mean(relative) if relative else None,
+            "mean_relative": mean(c["residual"] / max(c["measured"], c["sd"]) for c in entries),
             "mean_standardised": mean(c["standardised"] for c in entries),
             "whitened_rms": mean(c["whitened"] ** 2 for c in entries) ** 0.5,
         }

@@ -14,6 +14,7 @@ SIZE_WORDS = {
     "diameter_at_0p2L0_mm": "diameter at 0.2 L0",
 }
 SHAPE_WORDS = {
+    "all": "all shapes",
     "uniform_cylinder": "uniform cylinder",
     "reduced_head_4mm": "4-mm head",
     "reduced_head_3mm": "3-mm head",

@@ -32,7 +32,7 @@ def test_names_of_lots_and_parameters():
     name = "rho_immobile_initial[jones_soft]"
     assert words.parameter_words(name) == "initial immobilized density, jones soft"
     assert words.listed(["a", "b", "c"]) == "a, b and c"
-    assert words.signed_percent(-0.0123) == "−1.2 %"
+    assert words.signed_percent(-0.0123) == "−1.2\u202f%"
 
 
 def test_missing_values_become_null_in_a_chart():

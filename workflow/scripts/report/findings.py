@@ -2,6 +2,8 @@
 
 import math
 
+from statistics import median
+
 from markupsafe import Markup, escape
 
 from misfit_by_size import misfit_by_size
@@ -11,6 +13,7 @@ from report.words import counted, listed, lot_words
 from report.words import number, parameter_words, percent, size_words, split_name
 
 ODD_DATUM = 3.0  # standard errors from which a single datum is listed
+NEAR_END = 0.02  # share of the prior range within which an interval is open to that side
 STEERING = 0.5  # posterior standard deviations from which a shot is said to steer the result
 
 
@@ -57,7 +60,7 @@ def headline(results: Results) -> list[Markup]:
     """The result in a few sentences: parameters, misfit, where it fails."""
     sentences = [_parameter_sentence(results)]
     sentences += [_misfit_sentence(results, use) for use in ("calibrate", "validate")]
-    sentences.append(_failure_sentence(results))
+    sentences += [_failure_sentence(results), _bound_sentence(results), _network_sentence(results)]
     return [sentence for sentence in sentences if sentence]
 
 
@@ -92,9 +95,9 @@ def _misfit_sentence(results: Results, use: str) -> Markup:
     shots = sum(1 for shot in results.comparison["shots"] if shot["use"] == use)
     which = "fitted" if use == "calibrate" else "held back from the fit"
     verdict = (
-        "about what the stated errors explain"
+        "about what the errors of measurement and network explain"
         if misfit["whitened_rms"] < 1.2
-        else "more than the stated errors explain"
+        else "more than the errors of measurement and network explain"
     )
     by_size = [
         f"{size_words(size)} by {percent(share)}"
@@ -113,6 +116,40 @@ def _failure_sentence(results: Results) -> Markup:
     if not found:
         return Markup("No lot, size, shape or range of velocities deviates beyond its errors.")
     return Markup(f"It fails most here: {'; '.join(map(str, map(escape, found[:3])))}.")
+
+
+def _bound_sentence(results: Results) -> Markup:
+    """Parameters whose interval reaches an end of the prior range."""
+    open_below, open_above = [], []
+    for entry in results.comparison["parameters"]:
+        prior = results.settings["parameters"].get(split_name(entry["name"])[0])
+        if prior and _position(entry["lower95"], prior) < NEAR_END:
+            open_below.append(parameter_words(entry["name"]))
+        if prior and _position(entry["upper95"], prior) > 1 - NEAR_END:
+            open_above.append(parameter_words(entry["name"]))
+    sides = ((open_below, "below"), (open_above, "above"))
+    parts = [f"{listed(names)} from {side}" for names, side in sides if names]
+    return Markup(
+        f"Within the priors the data do not bound {'; nor '.join(parts)}." if parts else ""
+    )
+
+
+def _network_sentence(results: Results) -> Markup:
+    """Sizes in which the network errs more than the measurement."""
+    errors: dict[str, list[float]] = {}
+    for entry in results.emulator["validation"]["by_output"]:
+        errors.setdefault(entry["output"], []).append(entry["rms"])
+    stated: dict[str, list[float]] = {}
+    for shot in results.comparison["shots"]:
+        for cell in shot["sizes"]:
+            stated.setdefault(cell["size"], []).append(cell["sd"])
+    worse = [size_words(size) for size, sds in stated.items() if max(errors[size]) > median(sds)]
+    if not worse:
+        return Markup("")
+    return Markup(
+        f"In {listed(worse)} the network is less accurate than the measurement: more runs, or a "
+        "longer training, would sharpen the result."
+    )
 
 
 def odd_data(results: Results) -> list[dict]:

@@ -71,10 +71,13 @@ def _axes(panel: Panel, domain: tuple, suffix: str) -> tuple[dict, dict]:
         if limits:
             shown["range"] = list(limits)
         if logarithmic:
-            shown |= {"type": "log", "exponentformat": "power"}
+            shown["type"] = "log"
             if limits:
-                shown |= {"range": [log10(limit) for limit in limits], "dtick": 1}
-        return shown | {
+                ends = [log10(limit) for limit in limits]
+                shown |= {"range": ends, "dtick": 1, "exponentformat": "power"}
+            else:
+                shown |= {"tickformat": "~e", "nticks": 4}
+        return {
             "gridcolor": "var:grid",
             "zeroline": False,
             "linecolor": "var:faint",
@@ -82,12 +85,13 @@ def _axes(panel: Panel, domain: tuple, suffix: str) -> tuple[dict, dict]:
             "ticks": "outside",
             "ticklen": 3,
             "tickfont": {"size": 11, "color": "var:soft"},
-        }
+            "nticks": 6,
+        } | shown
 
     x = axis(panel.x_label, panel.x_log, panel.x_range)
     y = axis(panel.y_label, panel.y_log, panel.y_range)
-    x |= {"domain": domain[0], "anchor": "y" + suffix, "showline": True, "nticks": 6}
-    y |= {"domain": domain[1], "anchor": "x" + suffix, "nticks": 6}
+    x |= {"domain": domain[0], "anchor": "y" + suffix, "showline": True}
+    y |= {"domain": domain[1], "anchor": "x" + suffix}
     if panel.y_ticks:
         y |= {"tickvals": list(range(len(panel.y_ticks))), "ticktext": panel.y_ticks, "ticks": ""}
         y["range"] = [len(panel.y_ticks) - 0.5, -0.5]

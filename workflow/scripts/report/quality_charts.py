@@ -25,16 +25,15 @@ def network_chart(results: Results) -> Chart:
         layers = []
         for index, shape in enumerate(shapes):
             mine = [p for p in pairs if p["output"] == output and p["shape"] == shape]
-            mine = [p for p in mine if p["solver"]]
             solver = [pair["solver"] for pair in mine]
-            error = [100 * (pair["network"] / pair["solver"] - 1) for pair in mine]
+            error = [pair["network"] - pair["solver"] for pair in mine]
             words = SHAPE_WORDS.get(shape, shape) if len(shapes) > 1 else ""
             layers.append(Points(solver, error, PALETTE[index], size=4.5, legend=words))
         spread = [value for layer in layers for value in layer.x]
         if not spread:
             continue
         layers.insert(0, Line([min(spread), max(spread)], [0, 0], "faint", width=1))
-        x_label, y_label = "solver, mm", "network − solver, %"
+        x_label, y_label = "solver, mm", "network − solver, mm"
         panels.append(Panel(layers, size_words(output), x_label, y_label))
     return Chart(
         "network_against_solver",

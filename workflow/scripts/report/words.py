@@ -78,13 +78,13 @@ def sentence_case(text: str) -> str:
 def percent(share: float | None, digits: int = 1) -> str:
     if share is None:
         return "–"
-    return f"{100 * share:.{digits}f} %".replace("-", "−")
+    return f"{100 * share:.{digits}f}\u202f%".replace("-", "−")
 
 
 def signed_percent(share: float | None, digits: int = 1) -> str:
     if share is None:
         return "–"
-    return f"{100 * share:+.{digits}f} %".replace("-", "−")
+    return f"{100 * share:+.{digits}f}\u202f%".replace("-", "−")
 
 
 def duration(seconds: float) -> str:

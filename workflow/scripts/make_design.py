@@ -60,12 +60,12 @@ def write_design(path: Path, columns: dict) -> None:
     """Under a temporary name first, so that nobody reads half a file."""
     partial = path.with_name(path.name + ".tmp")
     text = h5py.string_dtype(encoding="utf-8")
-    with h5py.File(partial, "w", track_order=False) as file:
+    with h5py.File(partial, "w") as file:
         file.attrs["schema"] = "taylorcal/design/1"
-        file["run_id"] = columns["run_id"]
-        file["seed"] = columns["seed"]
-        file.create_dataset("shape", data=columns["shape"], dtype=text)
-        file["inputs"] = columns["inputs"]
+        for name in ("run_id", "seed", "inputs"):
+            # No time stamps: the same design has the same bytes.
+            file.create_dataset(name, data=columns[name], track_times=False)
+        file.create_dataset("shape", data=columns["shape"], dtype=text, track_times=False)
         file["inputs"].attrs.create("names", columns["names"], dtype=text)
     os.replace(partial, path)
 

@@ -5,6 +5,7 @@
 #include "calibrate/sampling/adapt.hpp"
 #include "common/progress.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -38,6 +39,21 @@ void print_result(const PosteriorResult& result, const ParameterSpace& space,
                static_cast<double>(posterior.predictions));
 }
 
+void warn_of_doubts(const Posterior& posterior, const SpreadLevels& levels) {
+    if (posterior.effective_sample_size < enough_draws)
+        spdlog::warn(
+            "not enough draws: {:.0f} effective, at least {:.0f} are needed for "
+            "reliable intervals. Raise draws or draws_per_lot.",
+            posterior.effective_sample_size, enough_draws);
+    const auto& found = posterior.kept.levels;
+    const auto at_end = std::count(found.begin(), found.end(), levels.values.size() - 1);
+    if (levels.is_free() && 10 * at_end > static_cast<std::ptrdiff_t>(found.size()))
+        spdlog::warn(
+            "{} of {} draws have the largest {} of its grid, {:g}. Extend the grid "
+            "in unexplained_spread, or look for what the model misses.",
+            at_end, found.size(), levels.name, levels.values.back());
+}
+
 }  // namespace
 
 void sample(const InputPaths& paths, const std::filesystem::path& out, int threads) {
@@ -56,11 +72,7 @@ void sample(const InputPaths& paths, const std::filesystem::path& out, int threa
         find_maxima(likelihood, result.posterior.kept, result.posterior.log_evidence);
     write_posterior(out, result, inputs.space, likelihood.levels(), inputs.settings);
     print_result(result, inputs.space, likelihood.levels(), inputs.settings);
-    if (result.posterior.effective_sample_size < enough_draws)
-        spdlog::warn(
-            "not enough draws: {:.0f} effective, at least {:.0f} are needed for "
-            "reliable intervals. Raise draws or draws_per_lot.",
-            result.posterior.effective_sample_size, enough_draws);
+    warn_of_doubts(result.posterior, likelihood.levels());
 }
 
 }  // namespace taylorcal::calibrate

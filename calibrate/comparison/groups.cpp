@@ -27,7 +27,7 @@ std::vector<Residual> list_residuals(const std::vector<ShotComparison>& shots,
             const auto column = shot.datum->columns[static_cast<std::size_t>(i)];
             all.push_back({sizes[static_cast<std::size_t>(column)], row.shape, row.lot,
                            thirds.word(row.velocity_m_s), use_word(row.use),
-                           shot.residual(i) / shot.datum->relative_to_mm(i),
+                           shot.residual(i) / shot.datum->scale_mm(i),
                            shot.standardised(i), shot.whitened(i)});
         }
     }

@@ -25,7 +25,7 @@ struct ResidualGroup {
     std::string velocity_third;  ///< the one third of all its data, or empty
     std::size_t n = 0;
     double rms_relative = 0;
-    double mean_relative = 0;  ///< of (measured - predicted) / measured
+    double mean_relative = 0;  ///< of (measured - predicted) / scale
     double mean_standardised = 0;
     double whitened_rms = 0;
     std::string words{};

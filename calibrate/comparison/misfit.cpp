@@ -22,9 +22,8 @@ Misfit misfit(const std::vector<ShotComparison>& shots, Use use, double best_spr
         mean_chi2 += of_draws.squaredNorm() / static_cast<double>(shot.draws.rows());
         total.chi2_with_spread += cholesky.matrixL().solve(shot.residual).squaredNorm();
         total.chi2 += shot.whitened.squaredNorm();
-        for (Eigen::Index i = 0; i < shot.residual.size(); ++i)
-            total.rms_relative +=
-                std::pow(shot.residual(i) / shot.datum->relative_to_mm(i), 2);
+        total.rms_relative +=
+            shot.residual.cwiseQuotient(shot.datum->scale_mm).squaredNorm();
         total.n += shot.datum->columns.size();
     }
     if (total.n == 0) return total;

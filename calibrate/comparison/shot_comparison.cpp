@@ -28,9 +28,9 @@ void add_band(ShotComparison& shot, double spread_squared) {
         shot.predictive_upper(i) = quantile(0.975);
         const double of_model =
             (shot.draws.col(i).array() - shot.predictive_mean(i)).square().mean();
-        const double measured = shot.datum->measured_mm(i);
+        const double scale = shot.datum->scale_mm(i);
         shot.predictive_sd(i) = std::sqrt(of_model + shot.fixed_covariance(i, i) +
-                                          spread_squared * measured * measured);
+                                          spread_squared * scale * scale);
     }
 }
 

@@ -58,9 +58,10 @@ std::string group_words(const ResidualGroup& group) {
         fmt::format("({} value{}, rms {:.1f} standard errors)", group.n,
                     group.n == 1 ? "" : "s", group.whitened_rms);
     if (has_direction(group))
-        return fmt::format("{} predicted {:.1f} % {}{} {}", subject(group),
-                           100 * std::abs(group.mean_relative), direction(group), where,
-                           weight);
+        return fmt::format("{} predicted {:.1f} %{} {}{} {}", subject(group),
+                           100 * std::abs(group.mean_relative),
+                           group.size == "undeformed_length_mm" ? " of L0" : "",
+                           direction(group), where, weight);
     if (is_beyond_errors(group))
         return fmt::format("{} off by {:.1f} % rms{}, beyond the errors {}",
                            subject(group), 100 * group.rms_relative, where, weight);

@@ -50,7 +50,7 @@ Eigen::MatrixXd fixed_covariance(const Settings& settings, const Predictor& pred
 Eigen::MatrixXd with_spread(const Eigen::MatrixXd& fixed, const Datum& datum,
                             double spread) {
     Eigen::MatrixXd covariance = fixed;
-    covariance.diagonal() += spread * spread * datum.measured_mm.cwiseAbs2();
+    covariance.diagonal() += spread * spread * datum.scale_mm.cwiseAbs2();
     return covariance;
 }
 

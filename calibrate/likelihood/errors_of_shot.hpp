@@ -18,7 +18,7 @@ Eigen::VectorXd velocity_slope(const Predictor& predictor, const Datum& datum,
 Eigen::MatrixXd fixed_covariance(const Settings& settings, const Predictor& predictor,
                                  const Datum& datum, const Eigen::VectorXd& parameters);
 
-/// Adds the relative spread: C + spread^2 diag(y^2), y the measured sizes.
+/// Adds the relative spread: C + spread^2 diag(y^2), y the sizes that it refers to.
 Eigen::MatrixXd with_spread(const Eigen::MatrixXd& fixed, const Datum& datum,
                             double spread);
 

@@ -13,17 +13,20 @@ namespace {
 Datum make_datum(const Shot& shot, const std::vector<std::string>& sizes) {
     Datum datum;
     datum.shot = shot;
-    std::vector<double> values, sds;
+    std::vector<double> values, sds, scales;
     for (std::size_t c = 0; c < sizes.size(); ++c)
         for (const Measurement& m : shot.sizes)
             if (m.size == sizes[c]) {
                 datum.columns.push_back(static_cast<Eigen::Index>(c));
                 values.push_back(m.value_mm);
                 sds.push_back(m.sd_mm);
+                scales.push_back(m.size == "undeformed_length_mm" ? shot.initial_length_mm
+                                                                  : m.value_mm);
             }
     const auto count = static_cast<Eigen::Index>(values.size());
     datum.measured_mm = Eigen::Map<Eigen::VectorXd>(values.data(), count);
     datum.sd_mm = Eigen::Map<Eigen::VectorXd>(sds.data(), count);
+    datum.scale_mm = Eigen::Map<Eigen::VectorXd>(scales.data(), count);
     return datum;
 }
 

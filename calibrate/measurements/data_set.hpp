@@ -17,12 +17,9 @@ struct Datum {
     std::vector<Eigen::Index> columns;  ///< which fitted sizes it has, rising
     Eigen::VectorXd measured_mm;
     Eigen::VectorXd sd_mm;
-
-    /// What a deviation is relative to: the measured size, or its error where that is
-    /// larger, since an undeformed length may be measured as zero.
-    double relative_to_mm(Eigen::Index i) const {
-        return std::max(measured_mm(i), sd_mm(i));
-    }
+    /// What relative deviations refer to: the measured size, but the initial length for
+    /// the undeformed part, of which nothing may be left.
+    Eigen::VectorXd scale_mm;
 };
 
 /// The shots that are fitted or held back, grouped by lot. Lots that are only held back

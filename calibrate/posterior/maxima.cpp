@@ -11,8 +11,9 @@ namespace taylorcal::calibrate {
 namespace {
 
 constexpr Eigen::Index most_points = 1000;
-constexpr double smallest_share = 0.01;
+constexpr double smallest_share = 0.01;  // of the largest
 constexpr std::size_t few = 20;
+constexpr Eigen::Index most_coordinates = 4;
 constexpr double same_point = 0.01;  // of the priors' widths
 
 /// ln posterior density over the unit cube for each row, the spread averaged out.
@@ -72,7 +73,10 @@ std::vector<Maximum> find_maxima(const LotLikelihood& likelihood,
                                  const WeightedDraws& draws, double log_evidence) {
     const RowMatrix units = thinned(draws.units);
     const auto shared = static_cast<Eigen::Index>(likelihood.space().shared_count());
-    const RowMatrix points = shared > 0 ? RowMatrix(units.leftCols(shared)) : units;
+    // A smoothed density tells modes apart in a few dimensions only.
+    const Eigen::Index coordinates = shared > 0 ? shared : units.cols();
+    const RowMatrix points =
+        units.leftCols(coordinates <= most_coordinates ? coordinates : 0);
     const Basins basins = find_basins(points);
     const Eigen::VectorXd densities = log_density(likelihood, units);
     const Eigen::RowVectorXd mean = units.colwise().mean();
@@ -80,22 +84,24 @@ std::vector<Maximum> find_maxima(const LotLikelihood& likelihood,
         (units.rowwise() - mean).array().square().colwise().mean().sqrt().transpose();
     const Eigen::RowVectorXd width =
         spread.head(points.cols()).transpose().cwiseMax(1e-9);
+    std::vector<std::vector<Eigen::Index>> members(
+        static_cast<std::size_t>(basins.modes.rows()));
+    for (std::size_t i = 0; i < basins.member.size(); ++i)
+        members[basins.member[i]].push_back(static_cast<Eigen::Index>(i));
+    std::size_t largest = 0;
+    for (const auto& basin : members) largest = std::max(largest, basin.size());
     std::vector<Maximum> maxima;
-    for (Eigen::Index mode = 0; mode < basins.modes.rows(); ++mode) {
-        std::vector<Eigen::Index> members;
-        for (Eigen::Index i = 0; i < units.rows(); ++i)
-            if (basins.member[static_cast<std::size_t>(i)] ==
-                static_cast<std::size_t>(mode))
-                members.push_back(i);
-        const double share =
-            static_cast<double>(members.size()) / static_cast<double>(units.rows());
-        if (share < smallest_share) continue;
+    for (std::size_t mode = 0; mode < members.size(); ++mode) {
+        const auto size = static_cast<double>(members[mode].size());
+        if (size < smallest_share * static_cast<double>(largest)) continue;
         const Eigen::Index best =
-            best_near(basins.modes.row(mode), points, width, members, densities);
+            best_near(basins.modes.row(static_cast<Eigen::Index>(mode)), points, width,
+                      members[mode], densities);
         const RefinedPoint refined =
             refine(likelihood, units.row(best).transpose(), 0.2 * spread);
         const double density = log_density(likelihood, refined.unit.transpose())(0);
-        merge(maxima, {refined.unit, refined.level, density - log_evidence, share});
+        merge(maxima, {refined.unit, refined.level, density - log_evidence,
+                       size / static_cast<double>(units.rows())});
     }
     std::stable_sort(
         maxima.begin(), maxima.end(),

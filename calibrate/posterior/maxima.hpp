@@ -20,7 +20,7 @@ struct Maximum {
 
 /// Local maxima of the smoothed density of equally weighted draws over the shared
 /// parameters (over all, if none is shared), each refined on the network; the highest
-/// density first.
+/// density first. In more than four dimensions only one is looked for.
 std::vector<Maximum> find_maxima(const LotLikelihood& likelihood,
                                  const WeightedDraws& draws, double log_evidence);
 

@@ -54,6 +54,9 @@ bool is_one_hill(const RowMatrix& points, const Eigen::RowVectorXd& a,
 }  // namespace
 
 Basins find_basins(const RowMatrix& points) {
+    if (points.cols() == 0)
+        return {RowMatrix(1, 0),
+                std::vector<std::size_t>(static_cast<std::size_t>(points.rows()), 0)};
     const Eigen::RowVectorXd width = kernel_width(points);
     const RowMatrix z = scaled(points, width);
     std::vector<Eigen::RowVectorXd> modes;

@@ -15,6 +15,8 @@ namespace taylorcal::calibrate {
 namespace {
 
 constexpr std::uint64_t most_passes = 25;
+constexpr std::uint64_t fewest_draws = 1000;
+constexpr std::uint64_t most_draws = 4000;
 constexpr double effective_share = 0.1;  // of the draws, to fit a proposal to
 
 DrawTable evaluate_pass(const Pass& pass) {
@@ -25,16 +27,22 @@ DrawTable evaluate_pass(const Pass& pass) {
     return join(tables);
 }
 
-/// The largest power up to 1 of the likelihood that leaves `wanted` effective draws.
+/// The largest power up to 1 of the likelihood that leaves `wanted` effective draws. At
+/// small powers the proposal may not cover the target any more, so the search comes from
+/// above; if none leaves so many, the power that leaves most.
 double largest_power(const DrawTable& table, const SpreadLevels& levels, double wanted) {
-    if (DrawWeights(table, levels).effective_size() >= wanted) return 1;
-    double low = -14, high = 0;  // log2 of the power
-    for (int i = 0; i < 20; ++i) {
-        const double middle = 0.5 * (low + high);
-        const DrawWeights weights(table, levels, std::exp2(middle));
-        (weights.effective_size() >= wanted ? low : high) = middle;
+    constexpr double step = 0.25;  // of log2
+    constexpr int most_steps = 64;
+    double best_power = 1, most = 0;
+    for (int i = 0; i <= most_steps; ++i) {
+        const double power = std::exp2(-step * i);
+        const double effective = DrawWeights(table, levels, power).effective_size();
+        if (effective >= wanted) return power;
+        if (effective <= most) continue;
+        most = effective;
+        best_power = power;
     }
-    return std::exp2(low);
+    return best_power;
 }
 
 /// The point of the unit cube with the largest likelihood times spread prior.
@@ -76,40 +84,46 @@ Eigen::VectorXd best_point(const DrawTable& table, const SpreadLevels& levels,
 
 Adaptation adapt(const Settings& settings, const DataSet& set,
                  const ParameterSpace& space, const Predictor& predictor, int threads) {
-    const std::uint64_t draws = std::clamp<std::uint64_t>(settings.draws / 10, 500, 2000);
+    const std::uint64_t draws = std::clamp(settings.draws / 5, fewest_draws, most_draws);
     const double wanted = effective_share * static_cast<double>(draws);
-    Adaptation result{
-        Proposal(space),
-        Eigen::VectorXd::Constant(static_cast<Eigen::Index>(space.size()), 0.5), 0, 0};
-    double last_power = 0;
-    while (result.passes < most_passes) {
-        ++result.passes;
-        const LotLikelihood likelihood(settings, set, space, predictor, result.reference);
-        const DrawNumbers numbers(settings.seed, result.passes);
-        const DrawTable table = evaluate_pass({likelihood, result.proposal, numbers,
-                                               draws, settings.draws_per_lot, threads});
-        result.predictions +=
+    const auto size = static_cast<Eigen::Index>(space.size());
+    Adaptation best{Proposal(space), Eigen::VectorXd::Constant(size, 0.5), 0, 0};
+    Proposal proposal = best.proposal;
+    double most_effective = 0;
+    bool is_full = false;
+    while (best.passes < most_passes) {
+        ++best.passes;
+        const LotLikelihood likelihood(settings, set, space, predictor, best.reference);
+        const DrawNumbers numbers(settings.seed, best.passes);
+        const DrawTable table = evaluate_pass(
+            {likelihood, proposal, numbers, draws, settings.draws_per_lot, threads});
+        best.predictions +=
             draws * static_cast<std::uint64_t>(table.inner) * likelihood.shots();
         const SpreadLevels& levels = likelihood.levels();
         const double effective = DrawWeights(table, levels).effective_size();
-        result.reference = best_point(table, levels, space);
+        best.reference = best_point(table, levels, space);
+        if (effective > most_effective) {
+            most_effective = effective;
+            best.proposal = proposal;
+        }
         const double scale =
             static_cast<double>(settings.draws) / static_cast<double>(draws);
-        if (result.passes == 1 && effective * scale >= 2 * enough_draws) break;
+        if (best.passes == 1 && effective * scale >= 2 * enough_draws) break;
         const double power = largest_power(table, levels, wanted);
         spdlog::info(
             "pass {}: {:.0f} effective of {} draws, likelihood to the power {:.3g}",
-            result.passes, effective, draws, power);
+            best.passes, effective, draws, power);
+        // One more pass after the first at full power sharpens the proposal.
+        if (is_full && power == 1) break;
+        is_full = power == 1;
         const DrawWeights weights(table, levels, power);
         if (!std::isfinite(weights.log_weights().maxCoeff()))
             throw NumericalError(
                 "no draw has a likelihood above zero: the predictions are "
                 "not finite or the priors exclude every measurement");
-        result.proposal = fit_proposal(table, weights, numbers);
-        if (power == 1 && last_power == 1) break;
-        last_power = power;
+        proposal = fit_proposal(table, weights, numbers);
     }
-    return result;
+    return best;
 }
 
 }  // namespace taylorcal::calibrate

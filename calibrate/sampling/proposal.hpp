@@ -10,14 +10,17 @@
 namespace taylorcal::calibrate {
 
 /// Where draws come from: the shared parameters from one mixture; then, given them, each
-/// lot's own parameters from bells whose centres follow the shared ones linearly.
+/// lot's own parameters from bells whose centres follow the shared ones.
 class Proposal {
   public:
-    /// A lot's own parameters near one part of the shared mixture.
+    /// A lot's own parameters near one part of the shared mixture: centred at
+    /// coefficients^T features(shared - mean of the part).
     struct Regression {
-        Eigen::MatrixXd slope;  ///< d(own)/d(shared)
-        HeavyTail bell;         ///< centred for shared parameters at the part's mean
+        Eigen::MatrixXd coefficients;
+        HeavyTail bell;  ///< centred at zero
     };
+    /// 1, the differences, and their squares and products: ridges are curved.
+    static Eigen::VectorXd features(const Eigen::VectorXd& difference);
 
     /// The prior.
     explicit Proposal(const ParameterSpace& space);

@@ -142,7 +142,7 @@ TEST_CASE("the nested estimate of the evidence is unbiased", "[evidence]") {
     const ParameterSpace space(c.settings.parameters, c.set.lots);
     const double exact = exact_posterior(c, space).log_evidence;
     double sum = 0, squares = 0;
-    constexpr int seeds = 60;
+    constexpr int seeds = 40;
     for (int seed = 0; seed < seeds; ++seed) {
         c.settings.seed = static_cast<std::uint64_t>(seed);
         const double ratio = std::exp(

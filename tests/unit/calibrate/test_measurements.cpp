@@ -60,7 +60,7 @@ TEST_CASE("nothing undeformed is a measurement, no length is a mistake",
     const DataSet set = make_data_set(
         read(undeformed + replaced(row, "30,0.2", "0.0,0.8")), {"undeformed_length_mm"});
     CHECK(set.data.at(0).measured_mm(0) == 0);
-    CHECK(set.data.at(0).relative_to_mm(0) == 0.8);
+    CHECK(set.data.at(0).scale_mm(0) == 40);
     CHECK_THAT(complaint(undeformed + replaced(row, "30,0.2", "-1,0.8")),
                Contains("line 2") && Contains("not a positive"));
     CHECK_THAT(complaint(header + replaced(row, "30,0.2", "0.0,0.8")),

@@ -8,6 +8,8 @@ from input_errors import InputError
 from schema_check import fill_defaults, findings, load_schema
 from study import DESIGN_RANGES
 
+FAR_OFF = 5  # standard errors from which a size is a slip of the pen
+
 
 def read_measurements(path: Path) -> list[dict]:
     """The rows with numbers as floats, empty cells left out and `line` added."""
@@ -117,15 +119,16 @@ def _typed(cells: dict[str, str], schema: dict) -> tuple[dict, list[tuple[str, s
 
 
 def _impossible(row: dict) -> list[tuple[str, str]]:
-    """Sizes that no impact can give."""
-    length = row["initial_length_mm"]
-    longer = [
-        (name, f"= {row[name]:g} is more than initial_length_mm = {length:g}.")
-        for name in ("final_length_mm", "undeformed_length_mm", "head_length_mm", "rear_length_mm")
-        if row.get(name, 0) > length
-    ]
-    diameter = row["initial_diameter_mm"]
-    if row["shape"] == "uniform_cylinder" and row.get("impact_diameter_mm", diameter) < diameter:
-        text = f"= {row['impact_diameter_mm']:g} is less than initial_diameter_mm = {diameter:g}."
-        longer.append(("impact_diameter_mm", text))
-    return longer
+    """Sizes that no impact can give, more than any error of measurement can explain."""
+    found = []
+    length, diameter = row["initial_length_mm"], row["initial_diameter_mm"]
+    for name in ("final_length_mm", "undeformed_length_mm", "head_length_mm", "rear_length_mm"):
+        if name in row and row[name] > length + FAR_OFF * row[f"{name}_sd"]:
+            found.append((name, f"= {row[name]:g} is more than initial_length_mm = {length:g}."))
+    name = "impact_diameter_mm"
+    if row["shape"] == "uniform_cylinder" and name in row:
+        if row[name] < diameter - FAR_OFF * row[f"{name}_sd"]:
+            found.append(
+                (name, f"= {row[name]:g} is less than initial_diameter_mm = {diameter:g}.")
+            )
+    return found

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -60,10 +61,15 @@ void sample(const InputPaths& paths, const std::filesystem::path& out, int threa
     const StudyInputs inputs(paths);
     PosteriorResult result;
     {
-        Progress progress("sampling", inputs.settings.draws);
-        result.posterior = sample_posterior(
-            inputs.settings, inputs.set, inputs.space, inputs.predictor, threads,
-            [&progress](std::uint64_t done) { progress.advance(done); });
+        // Made with the first draws: the search for the proposal has no known length.
+        std::optional<Progress> progress;
+        result.posterior =
+            sample_posterior(inputs.settings, inputs.set, inputs.space, inputs.predictor,
+                             threads, [&](std::uint64_t done) {
+                                 if (!progress)
+                                     progress.emplace("sampling", inputs.settings.draws);
+                                 progress->advance(done);
+                             });
     }
     const LotLikelihood likelihood(inputs.settings, inputs.set, inputs.space,
                                    inputs.predictor, result.posterior.reference);

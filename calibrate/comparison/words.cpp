@@ -30,14 +30,16 @@ std::string direction(const ResidualGroup& group) {
 }
 
 std::string subject(const ResidualGroup& group) {
-    if (!group.size.empty()) return size_in_words(group.size);
-    if (group.by == "velocity_third") return "all sizes";
+    const std::string size = group.size.empty() ? "" : size_in_words(group.size);
+    if (group.by == "lot" || group.by == "shape") {
+        std::string key = group.by == "lot" ? "lot " + group.key : group.key;
+        for (char& c : key)
+            if (c == '_') c = ' ';
+        return size.empty() ? key : key + ", " + size;
+    }
     if (group.by == "use")
         return group.key == use_word(Use::calibrate) ? "fitted shots" : "held-back shots";
-    std::string key = group.key;
-    for (char& c : key)
-        if (c == '_') c = ' ';
-    return group.by == "lot" ? "lot " + key : key;
+    return size.empty() ? "all sizes" : size;
 }
 
 }  // namespace

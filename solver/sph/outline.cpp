@@ -68,9 +68,9 @@ Outline::Outline(const specimen::Shape& shape, const Packing& packing)
         }
         rings_.back().smoothed = false;
         on_station(s + 1, layer - 1);
-        // A station at the section: the ring just above starts the next stretch.
+        // A station at the section: the head's side of it, as a calliper finds it there.
         if (std::abs(stations[s + 1] - shape.head_length) < tolerance) {
-            transition_ring_ = rings_.size();
+            transition_ring_ = rings_.size() - 1;
         }
     }
 }
@@ -133,7 +133,6 @@ observe::DeformedProfile Outline::measure(const Particles& particles) const {
     }
     profile.outline_height = heights;
     profile.outline_radius = radii;
-    profile.head_points = transition_ring_;
     // The two interlaced lattices alternate: 1-2-1 means keep straight lines as they are.
     for (std::size_t i = 1; i + 1 < rings_.size(); ++i) {
         if (!rings_[i].smoothed) continue;
@@ -141,7 +140,7 @@ observe::DeformedProfile Outline::measure(const Particles& particles) const {
             (heights[i - 1] + 2 * heights[i] + heights[i + 1]) / 4;
         profile.outline_radius[i] = (radii[i - 1] + 2 * radii[i] + radii[i + 1]) / 4;
     }
-    profile.head_points = transition_ring_;
+    profile.head_points = transition_ring_ + 1;
     profile.transition_radius = profile.outline_radius[transition_ring_];
     return profile;
 }

@@ -15,7 +15,7 @@ class Monitor {
     void observe(const Body& body);
     /// Mean axial velocity of the rear face [m/s].
     static double rear_velocity(const Body& body);
-    /// What was seen, for the result. `stop_time` in s.
+    /// What was seen, for the result. `stop_time` in s, NaN if the rear moves still.
     void report(const Body& body, double stop_time, impact::ImpactResult& result) const;
 
   private:

@@ -8,8 +8,9 @@
 
 #include <cmath>
 #include <ctime>
+#include <limits>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace taylorcal::axisymmetric {
 namespace {
@@ -96,7 +97,7 @@ void run(const impact::ImpactCase& impact_case, Body& body,
     const double ringing = ringing_period(body, impact_case.shape.length());
     SizeMean sizes;
     int samples = 0;
-    double stop_time = 0;
+    double stop_time = std::numeric_limits<double>::quiet_NaN();
     while (result.reason.empty()) {
         result.reason = take_step(body, self_contact);
         if (!result.reason.empty()) {
@@ -104,10 +105,10 @@ void run(const impact::ImpactCase& impact_case, Body& body,
             break;
         }
         monitor.observe(body);
+        if (std::isnan(stop_time) && Monitor::rear_velocity(body) >= 0)
+            stop_time = body.time;
         if (fixed_time) {
             if (body.time >= impact_case.run_until_s) break;
-        } else if (stop_time == 0) {
-            if (Monitor::rear_velocity(body) >= 0) stop_time = body.time;
         } else if (body.time >= stop_time + ringing * (samples + 0.5) / size_samples) {
             sizes.add(observe::measure(deformed_profile(body, impact_case.shape)));
             if (++samples == size_samples) break;

@@ -3,6 +3,7 @@
 #include "solver/observe/sizes.hpp"
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -12,7 +13,9 @@ enum class Status { stopped, not_stopped, failed };  // 0, 1, 2 in the database
 
 /// Extremes and integrals over a run that help to say where a model fails.
 struct Descriptors {
-    double stop_time_us = 0;  ///< the rear's axial velocity crosses zero
+    /// When the rear's axial velocity crosses zero; NaN, as is the stress at half of it,
+    /// in a run that ended before.
+    double stop_time_us = std::numeric_limits<double>::quiet_NaN();
     double largest_temperature_K = 0;
     double peak_strain_rate_per_s = 0;  ///< radial rate of the contact spot
     double plastic_work_J = 0;
@@ -20,8 +23,9 @@ struct Descriptors {
     double smallest_grain_um = 0;
     double largest_weakened_fraction = 0;
     double largest_plastic_strain = 0;  ///< equivalent
-    double mean_von_mises_GPa = 0;      ///< over the deformed part, at half the stop time
-    double viscous_share = 0;           ///< artificial viscosity's share of the work
+    /// Over the deformed part, at half the stop time.
+    double mean_von_mises_GPa = std::numeric_limits<double>::quiet_NaN();
+    double viscous_share = 0;  ///< artificial viscosity's share of the work
     double hourglass_share = 0;
     double energy_error = 0;  ///< |energy gained or lost| / initial kinetic
 };

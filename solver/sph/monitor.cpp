@@ -113,9 +113,8 @@ void Monitor::record() {
                         body_.kinetic_energy(), body_.total_energy()});
 }
 
-impact::Descriptors Monitor::descriptors(double stop_time_s) const {
+impact::Descriptors Monitor::descriptors(std::optional<double> stop_time_s) const {
     impact::Descriptors d;
-    d.stop_time_us = stop_time_s * 1e6;
     d.largest_temperature_K = largest_temperature_;
     for (const impact::HistoryRecord& h : history_) {
         d.peak_strain_rate_per_s =
@@ -133,11 +132,14 @@ impact::Descriptors Monitor::descriptors(double stop_time_s) const {
         d.largest_plastic_strain =
             std::max(d.largest_plastic_strain, s.equivalent_plastic_strain);
     });
-    double nearest = INFINITY;
-    for (const auto& [time, stress] : von_mises_) {
-        if (std::abs(time - stop_time_s / 2) >= nearest) continue;
-        nearest = std::abs(time - stop_time_s / 2);
-        d.mean_von_mises_GPa = stress * 1e-9;
+    if (stop_time_s) {
+        d.stop_time_us = *stop_time_s * 1e6;
+        double nearest = INFINITY;
+        for (const auto& [time, stress] : von_mises_) {
+            if (std::abs(time - *stop_time_s / 2) >= nearest) continue;
+            nearest = std::abs(time - *stop_time_s / 2);
+            d.mean_von_mises_GPa = stress * 1e-9;
+        }
     }
     d.viscous_share = work.viscous / initial_kinetic_energy_;
     d.hourglass_share = work.hourglass / initial_kinetic_energy_;

@@ -4,6 +4,7 @@
 #include "solver/sph/body.hpp"
 #include "solver/sph/outline.hpp"
 
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -20,7 +21,7 @@ class Monitor {
     double rear_velocity() const;
     const Outline& outline() const { return outline_; }
     const std::vector<impact::HistoryRecord>& history() const { return history_; }
-    impact::Descriptors descriptors(double stop_time_s) const;
+    impact::Descriptors descriptors(std::optional<double> stop_time_s) const;
     impact::Fields fields() const;
 
   private:

@@ -7,7 +7,7 @@
 #include <ctime>
 #include <optional>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace taylorcal::sph {
 
@@ -77,7 +77,7 @@ class Run {
             profiles_.add(monitor_.outline().measure(body_.particles()));
         result.profile = profiles_.mean();
         result.sizes = observe::measure(result.profile);
-        result.descriptors = monitor_.descriptors(stop_time_.value_or(body_.time()));
+        result.descriptors = monitor_.descriptors(stop_time_);
         result.history = monitor_.history();
         result.fields = monitor_.fields();
         result.steps = steps_;

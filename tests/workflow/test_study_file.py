@@ -4,6 +4,7 @@ import pytest
 from tiny_study import ROOT, STUDY_YAML, write_study
 
 from input_errors import InputError
+from measurements import check_against_study, read_measurements
 from schema_check import load_schema
 from study import calibrate_settings, design_settings, load_study, read_study, train_settings
 
@@ -67,9 +68,11 @@ def test_an_unknown_study_names_the_known_ones(tmp_path):
         load_study("coper", tmp_path)
 
 
-def test_the_studies_of_the_repository_are_valid():
-    for path in sorted((ROOT / "experiments").glob("*/study.yaml")):
-        assert read_study(path)["title"]
+@pytest.mark.parametrize("name", ["copper_measured", "paper_design"])
+def test_the_studies_of_the_repository_are_valid(name):
+    study = load_study(name, ROOT / "experiments")
+    table = ROOT / "experiments" / name / study["measurements"]
+    check_against_study(read_measurements(table), study, table)
 
 
 def test_defaults_are_filled_in(tiny_study):

@@ -2,7 +2,7 @@
 #include "common/hdf5_file.hpp"
 #include "common/hdf5_handle.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace taylorcal {
 

@@ -4,7 +4,8 @@
 
 #include <fstream>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
 
 namespace taylorcal {
 

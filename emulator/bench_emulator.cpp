@@ -4,7 +4,7 @@
 #include <chrono>
 #include <functional>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 using namespace taylorcal::emulator;
 

@@ -1,6 +1,8 @@
 #include "calibrate/comparison/comparison.hpp"
 #include "common/provenance.hpp"
 
+#include <nlohmann/json.hpp>
+
 namespace taylorcal::calibrate {
 namespace {
 

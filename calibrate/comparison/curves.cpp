@@ -1,5 +1,6 @@
 #include "calibrate/comparison/curves.hpp"
 
+#include "calibrate/posterior/thinned.hpp"
 #include "calibrate/posterior/weighted_quantile.hpp"
 
 #include <algorithm>
@@ -9,16 +10,8 @@
 namespace taylorcal::calibrate {
 namespace {
 
-constexpr int points = 25;
-constexpr Eigen::Index most_draws = 400;
-
-RowMatrix thinned(const RowMatrix& units) {
-    const Eigen::Index stride = (units.rows() + most_draws - 1) / most_draws;
-    RowMatrix chosen((units.rows() + stride - 1) / stride, units.cols());
-    for (Eigen::Index i = 0; i < chosen.rows(); ++i)
-        chosen.row(i) = units.row(i * stride);
-    return chosen;
-}
+constexpr int points_of_curve = 25;
+constexpr Eigen::Index draws_of_band = 400;
 
 bool same_geometry(const Shot& a, const Shot& b) {
     return a.lot == b.lot && a.shape == b.shape &&
@@ -69,12 +62,12 @@ void add_curves(std::vector<Curve>& curves, const ComparisonInputs& inputs,
         curve.initial_temperature_K = shot.initial_temperature_K;
         curves.push_back(curve);
     }
-    const RowMatrix of_draws =
-        inputs.space.lot_parameters(thinned(inputs.posterior.units), datum.lot);
+    const RowMatrix of_draws = inputs.space.lot_parameters(
+        thinned(inputs.posterior.units, draws_of_band), datum.lot);
     const RowMatrix of_best =
         inputs.space.lot_parameters(inputs.posterior.maxima_units.topRows(1), datum.lot);
-    for (int i = 0; i < points; ++i) {
-        const double t = static_cast<double>(i) / (points - 1);
+    for (int i = 0; i < points_of_curve; ++i) {
+        const double t = static_cast<double>(i) / (points_of_curve - 1);
         shot.velocity_m_s = range.lower + t * (range.upper - range.lower);
         const RowMatrix draws = inputs.predictor.predict(shot, of_draws);
         const RowMatrix best = inputs.predictor.predict(shot, of_best);

@@ -77,6 +77,7 @@ std::string VelocityThirds::word(double velocity_m_s) const {
 
 VelocityThirds velocity_thirds(const std::vector<ShotComparison>& shots) {
     std::vector<double> velocities;
+    velocities.reserve(shots.size());
     for (const ShotComparison& shot : shots)
         velocities.push_back(shot.datum->shot.velocity_m_s);
     std::sort(velocities.begin(), velocities.end());

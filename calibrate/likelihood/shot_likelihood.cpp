@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include <Eigen/Cholesky>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace taylorcal::calibrate {
 

@@ -2,6 +2,7 @@
 
 #include "calibrate/posterior/mean_shift.hpp"
 #include "calibrate/posterior/refine.hpp"
+#include "calibrate/posterior/thinned.hpp"
 #include "calibrate/sampling/log_sum.hpp"
 
 #include <algorithm>
@@ -28,15 +29,6 @@ Eigen::VectorXd log_density(const LotLikelihood& likelihood, const RowMatrix& un
         densities(i) = sum.value();
     }
     return densities;
-}
-
-/// Every so-manieth draw, so that at most `most_points` remain.
-RowMatrix thinned(const RowMatrix& units) {
-    const Eigen::Index stride = (units.rows() + most_points - 1) / most_points;
-    RowMatrix chosen((units.rows() + stride - 1) / stride, units.cols());
-    for (Eigen::Index i = 0; i < chosen.rows(); ++i)
-        chosen.row(i) = units.row(i * stride);
-    return chosen;
 }
 
 /// The draw of the highest density among the few nearest to a mode.
@@ -71,7 +63,7 @@ void merge(std::vector<Maximum>& maxima, Maximum found) {
 
 std::vector<Maximum> find_maxima(const LotLikelihood& likelihood,
                                  const WeightedDraws& draws, double log_evidence) {
-    const RowMatrix units = thinned(draws.units);
+    const RowMatrix units = thinned(draws.units, most_points);
     const auto shared = static_cast<Eigen::Index>(likelihood.space().shared_count());
     // A smoothed density tells modes apart in a few dimensions only.
     const Eigen::Index coordinates = shared > 0 ? shared : units.cols();

@@ -15,8 +15,8 @@ namespace taylorcal::calibrate {
 namespace {
 
 constexpr std::uint64_t most_passes = 25;
-constexpr std::uint64_t fewest_draws = 1000;
-constexpr std::uint64_t most_draws = 4000;
+constexpr std::uint64_t fewest_draws_of_pass = 1000;
+constexpr std::uint64_t most_draws_of_pass = 4000;
 constexpr double effective_share = 0.1;  // of the draws, to fit a proposal to
 
 DrawTable evaluate_pass(const Pass& pass) {
@@ -32,9 +32,9 @@ DrawTable evaluate_pass(const Pass& pass) {
 /// above; if none leaves so many, the power that leaves most.
 double largest_power(const DrawTable& table, const SpreadLevels& levels, double wanted) {
     constexpr double step = 0.25;  // of log2
-    constexpr int most_steps = 64;
+    constexpr int most_powers = 64;
     double best_power = 1, most = 0;
-    for (int i = 0; i <= most_steps; ++i) {
+    for (int i = 0; i <= most_powers; ++i) {
         const double power = std::exp2(-step * i);
         const double effective = DrawWeights(table, levels, power).effective_size();
         if (effective >= wanted) return power;
@@ -84,7 +84,8 @@ Eigen::VectorXd best_point(const DrawTable& table, const SpreadLevels& levels,
 
 Adaptation adapt(const Settings& settings, const DataSet& set,
                  const ParameterSpace& space, const Predictor& predictor, int threads) {
-    const std::uint64_t draws = std::clamp(settings.draws / 5, fewest_draws, most_draws);
+    const std::uint64_t draws =
+        std::clamp(settings.draws / 5, fewest_draws_of_pass, most_draws_of_pass);
     const double wanted = effective_share * static_cast<double>(draws);
     const auto size = static_cast<Eigen::Index>(space.size());
     Adaptation best{Proposal(space), Eigen::VectorXd::Constant(size, 0.5), 0, 0};

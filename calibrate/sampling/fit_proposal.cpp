@@ -12,8 +12,7 @@ namespace {
 
 constexpr double prior_share = 0.1;
 constexpr std::size_t most_parts = 24;
-constexpr double negligible = 1e-12;      // weight of a draw
-constexpr double floor_of_spread = 1e-4;  // of the prior's width
+constexpr double negligible = 1e-12;  // weight of a draw
 
 /// Posterior moments of a lot's own parameters given each draw of the shared ones.
 struct OwnMoments {

@@ -8,7 +8,6 @@
 namespace taylorcal::calibrate {
 namespace {
 
-constexpr double floor_of_spread = 1e-4;  // of the prior's width
 constexpr int iterations = 40;
 
 Eigen::Index pick_index(const Eigen::VectorXd& weights, double uniform) {

@@ -8,6 +8,9 @@
 
 namespace taylorcal::calibrate {
 
+/// No Gaussian is narrower than this share of the prior's width.
+inline constexpr double floor_of_spread = 1e-4;
+
 /// Weighted points in the unit cube described by a few Gaussians.
 struct GaussianMixture {
     struct Part {

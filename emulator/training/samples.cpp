@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace taylorcal::emulator {
 

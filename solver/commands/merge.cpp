@@ -5,7 +5,9 @@
 #include <map>
 #include <memory>
 
-#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
 
 namespace taylorcal::commands {
 namespace {

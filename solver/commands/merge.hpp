@@ -1,11 +1,10 @@
 #pragma once
 
+#include "solver/commands/cli_app.hpp"
 #include "solver/commands/database.hpp"
 
 #include <string>
 #include <vector>
-
-#include <CLI/CLI.hpp>
 
 namespace taylorcal::commands {
 

@@ -6,6 +6,7 @@
 
 #include <memory>
 
+#include <CLI/CLI.hpp>
 #include <spdlog/spdlog.h>
 
 namespace taylorcal::commands {

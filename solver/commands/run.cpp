@@ -9,7 +9,9 @@
 #include <cstdlib>
 #include <memory>
 
-#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
 
 namespace taylorcal::commands {

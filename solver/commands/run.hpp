@@ -1,6 +1,6 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include "solver/commands/cli_app.hpp"
 
 namespace taylorcal::commands {
 

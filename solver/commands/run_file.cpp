@@ -4,6 +4,8 @@
 #include "common/provenance.hpp"
 #include "solver/commands/run_table.hpp"
 
+#include <nlohmann/json.hpp>
+
 namespace taylorcal::commands {
 namespace {
 

@@ -1,6 +1,7 @@
 #include "solver/commands/run_table.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
 
 namespace taylorcal::commands {
 namespace {

@@ -2,7 +2,7 @@
 
 #include "common/errors.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace taylorcal::commands {
 namespace {

@@ -3,7 +3,7 @@
 namespace taylorcal::material {
 
 namespace {
-constexpr double gruneisen_coefficient = 2;
+constexpr double linear_gruneisen_coefficient = 2;
 }
 
 LinearEquationOfState::LinearEquationOfState(const Parameters& parameters)
@@ -14,7 +14,7 @@ LinearEquationOfState::LinearEquationOfState(const Parameters& parameters)
 
 ThermoState LinearEquationOfState::at(double density, double energy) const {
     return {bulk_modulus_ * (density / initial_density_ - 1) +
-                gruneisen_coefficient * initial_density_ * energy,
+                linear_gruneisen_coefficient * initial_density_ * energy,
             reference_temperature_ + energy / specific_heat_, bulk_modulus_};
 }
 
@@ -23,8 +23,8 @@ double LinearEquationOfState::energy_at_temperature(double temperature) const {
 }
 
 double LinearEquationOfState::density_at_temperature(double temperature) const {
-    const double thermal_pressure =
-        gruneisen_coefficient * initial_density_ * energy_at_temperature(temperature);
+    const double thermal_pressure = linear_gruneisen_coefficient * initial_density_ *
+                                    energy_at_temperature(temperature);
     return initial_density_ * (1 - thermal_pressure / bulk_modulus_);
 }
 

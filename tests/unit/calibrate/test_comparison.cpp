@@ -9,7 +9,8 @@
 #include <cmath>
 
 #include <catch2/catch.hpp>
-#include <fmt/format.h>
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
 
 using namespace taylorcal;
 using namespace taylorcal::calibrate;

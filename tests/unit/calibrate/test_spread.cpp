@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include <catch2/catch.hpp>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 using namespace taylorcal;
 using namespace taylorcal::calibrate;

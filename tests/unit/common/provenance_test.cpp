@@ -1,6 +1,7 @@
 #include "common/provenance.hpp"
 
 #include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
 
 // Published vectors of 64-bit FNV-1a (Fowler, Noll, Vo; draft-eastlake-fnv).
 TEST_CASE("the digest is FNV-1a", "[provenance]") {

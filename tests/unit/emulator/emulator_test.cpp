@@ -7,6 +7,7 @@
 #include "naive_evaluation.hpp"
 
 #include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
 
 using namespace taylorcal;
 using namespace taylorcal::emulator;

@@ -1,6 +1,6 @@
 #include "solver/axisymmetric/body.hpp"
 
-#include "solver/axisymmetric/orientations.hpp"
+#include "solver/material/grain_orientations.hpp"
 
 #include <cmath>
 
@@ -77,7 +77,7 @@ Body::Body(const impact::ImpactCase& impact_case)
     }
     const auto grains = static_cast<std::size_t>(numerics.grains_per_point);
     strength = material::make_strength<float>(
-        parameters, grain_orientations(count, grains, impact_case.seed));
+        parameters, material::grain_orientations(count, grains, impact_case.seed));
     balance.initial_kinetic = kinetic_energy(*this);
 }
 

@@ -1,6 +1,6 @@
 #include "solver/sph/orientations.hpp"
 
-#include "common/random.hpp"
+#include "solver/material/grain_orientations.hpp"
 
 #include <cmath>
 #include <map>
@@ -10,15 +10,6 @@
 namespace taylorcal::sph {
 
 namespace {
-
-Eigen::Quaterniond uniform_rotation(const RandomStream& random, std::uint64_t index) {
-    const auto words = random.words(index);
-    const auto uniform = [&](std::size_t w) { return (words[w] + 0.5) / 4294967296.0; };
-    const double a = std::sqrt(1 - uniform(0)), b = std::sqrt(uniform(0));
-    const double p = 2 * std::numbers::pi * uniform(1);
-    const double q = 2 * std::numbers::pi * uniform(2);
-    return {b * std::cos(q), a * std::sin(p), a * std::cos(p), b * std::sin(q)};
-}
 
 /// How many quarter turns bring the site from the first quadrant, and where it was there.
 struct QuarterTurns {
@@ -44,6 +35,7 @@ std::vector<Eigen::Quaterniond> random_orientations(std::uint64_t seed,
                                                     std::size_t grains) {
     constexpr std::uint64_t stream = 0x73706867;
     const RandomStream random(seed, stream);
+    const std::vector<Eigen::Quaterniond> set = material::isotropic_set(grains);
     std::map<std::pair<int, int>, std::size_t> first_slot;
     std::vector<const Column*> column_of(packing.slots / block_size, nullptr);
     for (const Column& column : packing.columns) {
@@ -64,7 +56,7 @@ std::vector<Eigen::Quaterniond> random_orientations(std::uint64_t seed,
         for (std::size_t g = 0; g < grains; ++g) {
             for (std::size_t k = 0; k < block_size; ++k) {
                 orientations.push_back(
-                    turn * uniform_rotation(random, (first + k) * grains + g));
+                    turn * material::uniform_rotation(random, first + k) * set[g]);
             }
         }
     }

@@ -1,8 +1,8 @@
-#include "solver/axisymmetric/orientations.hpp"
+#include "solver/material/grain_orientations.hpp"
 
 #include <catch2/catch.hpp>
 
-using namespace taylorcal::axisymmetric;
+using namespace taylorcal::material;
 
 namespace {
 

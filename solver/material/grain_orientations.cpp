@@ -1,6 +1,4 @@
-#include "solver/axisymmetric/orientations.hpp"
-
-#include "common/random.hpp"
+#include "solver/material/grain_orientations.hpp"
 
 #include <array>
 #include <cmath>
@@ -8,7 +6,7 @@
 #include <mutex>
 #include <numbers>
 
-namespace taylorcal::axisymmetric {
+namespace taylorcal::material {
 namespace {
 
 constexpr std::size_t moment_count = 15;
@@ -57,15 +55,6 @@ Moment isotropic_moment() {
     return moment;
 }
 
-/// Uniform on SO(3) (Shoemake 1992) from three uniform numbers.
-Eigen::Quaterniond uniform_rotation(const RandomStream& random, std::uint64_t index) {
-    const double u = random.uniform(3 * index);
-    const double first = 2 * std::numbers::pi * random.uniform(3 * index + 1);
-    const double second = 2 * std::numbers::pi * random.uniform(3 * index + 2);
-    return {std::sqrt(u) * std::cos(second), std::sqrt(1 - u) * std::sin(first),
-            std::sqrt(1 - u) * std::cos(first), std::sqrt(u) * std::sin(second)};
-}
-
 double anisotropy(const Moment& sum, double count) {
     static const Moment isotropic = isotropic_moment();
     double square = 0;
@@ -77,7 +66,7 @@ double anisotropy(const Moment& sum, double count) {
 
 /// A set of `count` orientations with little anisotropy, by a random search that keeps
 /// what improves, with ever smaller turns.
-std::vector<Eigen::Quaterniond> isotropic_set(std::size_t count) {
+std::vector<Eigen::Quaterniond> search_isotropic_set(std::size_t count) {
     const RandomStream random(count, set_stream);
     std::vector<Eigen::Quaterniond> set;
     std::vector<Moment> moments;
@@ -95,8 +84,9 @@ std::vector<Eigen::Quaterniond> isotropic_set(std::size_t count) {
                                                      static_cast<double>(search_steps));
         const Eigen::Vector3d turn(random.normal(base), random.normal(base + 1),
                                    random.normal(base + 2));
-        const Eigen::Quaterniond trial(
-            Eigen::AngleAxisd(size * turn.norm(), turn.normalized()) * set[g]);
+        const Eigen::Quaterniond trial =
+            (Eigen::AngleAxisd(size * turn.norm(), turn.normalized()) * set[g])
+                .normalized();
         const Moment moment = fourth_moment(trial);
         Moment changed = sum;
         for (std::size_t m = 0; m < moment_count; ++m)
@@ -113,18 +103,27 @@ std::vector<Eigen::Quaterniond> isotropic_set(std::size_t count) {
 
 }  // namespace
 
+Eigen::Quaterniond uniform_rotation(const RandomStream& random, std::uint64_t index) {
+    const double u = random.uniform(3 * index);
+    const double first = 2 * std::numbers::pi * random.uniform(3 * index + 1);
+    const double second = 2 * std::numbers::pi * random.uniform(3 * index + 2);
+    return {std::sqrt(u) * std::cos(second), std::sqrt(1 - u) * std::sin(first),
+            std::sqrt(1 - u) * std::cos(first), std::sqrt(u) * std::sin(second)};
+}
+
+std::vector<Eigen::Quaterniond> isotropic_set(std::size_t count) {
+    static std::mutex guard;
+    static std::map<std::size_t, std::vector<Eigen::Quaterniond>> known;
+    const std::lock_guard lock(guard);
+    auto& entry = known[count];
+    if (entry.empty()) entry = search_isotropic_set(count);
+    return entry;
+}
+
 std::vector<Eigen::Quaterniond> grain_orientations(std::size_t points,
                                                    std::size_t per_point,
                                                    std::uint64_t seed) {
-    static std::mutex guard;
-    static std::map<std::size_t, std::vector<Eigen::Quaterniond>> known;
-    std::vector<Eigen::Quaterniond> set;
-    {
-        const std::lock_guard lock(guard);
-        auto& entry = known[per_point];
-        if (entry.empty()) entry = isotropic_set(per_point);
-        set = entry;
-    }
+    const std::vector<Eigen::Quaterniond> set = isotropic_set(per_point);
     const RandomStream random(seed, cell_stream);
     std::vector<Eigen::Quaterniond> orientations;
     orientations.reserve(points * per_point);
@@ -136,4 +135,4 @@ std::vector<Eigen::Quaterniond> grain_orientations(std::size_t points,
     return orientations;
 }
 
-}  // namespace taylorcal::axisymmetric
+}  // namespace taylorcal::material

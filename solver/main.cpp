@@ -3,6 +3,7 @@
 #include "solver/commands/batch.hpp"
 #include "solver/commands/merge.hpp"
 #include "solver/commands/parameters.hpp"
+#include "solver/commands/plate.hpp"
 #include "solver/commands/point.hpp"
 #include "solver/commands/run.hpp"
 
@@ -23,6 +24,7 @@ int run(int argc, char** argv) {
     add_batch(app);
     add_merge(app);
     add_point(app);
+    add_plate(app);
     add_parameters(app);
     try {
         app.parse(argc, argv);

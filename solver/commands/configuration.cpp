@@ -5,6 +5,32 @@
 namespace taylorcal::commands {
 namespace {
 
+/// Overrides what the fidelity chose, for studies of convergence and dissipation.
+void read_numerics(const JsonReader& reader, impact::Numerics& numerics) {
+    reader.only({"elements_across_radius", "grains_per_point", "cfl", "linear_viscosity",
+                 "quadratic_viscosity", "hourglass"});
+    const auto whole = [&](const char* key, int most, int chosen) {
+        const long long value = reader.integer(key, chosen);
+        if (value < 1 || value > most)
+            reader.fail(key, "= " + std::to_string(value) + " (expected 1 to " +
+                                 std::to_string(most) + ").");
+        return static_cast<int>(value);
+    };
+    const auto share = [&](const char* key, double most, double chosen) {
+        return reader.number_in(key, 0, most, chosen);
+    };
+    numerics.elements_across_radius =
+        whole("elements_across_radius", 200, numerics.elements_across_radius);
+    numerics.grains_per_point = whole("grains_per_point", 256, numerics.grains_per_point);
+    numerics.cfl = reader.number_in("cfl", 1e-3, 1, numerics.cfl);
+    numerics.linear_viscosity = share("linear_viscosity", 10, numerics.linear_viscosity);
+    numerics.quadratic_viscosity =
+        share("quadratic_viscosity", 10, numerics.quadratic_viscosity);
+    numerics.hourglass = share("hourglass", 10, numerics.hourglass);
+}
+
+}  // namespace
+
 void read_material(const JsonReader& reader, material::Parameters& material) {
     reader.only(material::setting_names());
     for (const std::string& name : reader.keys()) {
@@ -24,10 +50,8 @@ void read_material(const JsonReader& reader, material::Parameters& material) {
     }
 }
 
-}  // namespace
-
 Configuration read_configuration(const JsonReader& reader) {
-    reader.only({"geometry", "fidelity", "material"});
+    reader.only({"geometry", "fidelity", "numerics", "material"});
     const std::string geometry =
         reader.word("geometry", impact::geometry_names(), "axisymmetric");
     const std::string fidelity =
@@ -38,6 +62,7 @@ Configuration read_configuration(const JsonReader& reader) {
     configuration.document["fidelity"] = fidelity;
     configuration.numerics =
         impact::numerics_for(impact::geometry_from_name(geometry), fidelity);
+    read_numerics(reader.object_or_empty("numerics"), configuration.numerics);
     read_material(reader.object_or_empty("material"), configuration.material);
     return configuration;
 }

@@ -17,7 +17,11 @@ struct Configuration {
     material::Parameters material;
 };
 
-/// Reads {"geometry", "fidelity", "material": {name: value}}; all keys are optional.
+/// Sets the parameters that an object {name: value} gives. InputError as below.
+void read_material(const JsonReader& reader, material::Parameters& material);
+
+/// Reads {"geometry", "fidelity", "numerics": {name: value}, "material": {name: value}};
+/// all keys are optional.
 /// InputError for an unknown key, a wrong word or a value out of range.
 Configuration read_configuration(const JsonReader& reader);
 

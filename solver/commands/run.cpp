@@ -6,6 +6,7 @@
 #include "solver/commands/shot.hpp"
 #include "solver/impact/simulate.hpp"
 
+#include <cmath>
 #include <cstdlib>
 #include <memory>
 
@@ -22,6 +23,7 @@ struct RunOptions {
     std::string geometry;
     std::string fidelity;
     std::vector<std::string> settings;
+    std::vector<std::string> numerics;
     std::string shape = "uniform_cylinder";
     Shot shot;
     double until_us = 0;
@@ -37,18 +39,21 @@ const char* const samples = R"(Sample runs:
     --set strength=j2 --set equation_of_state=linear --set bulk_modulus=130e9 \
     --set poisson_ratio=0.35)";
 
-/// Puts "name=value" into the material block, a number where it reads as one.
-void apply_setting(const std::string& setting, nlohmann::json& document) {
+/// Puts "name=value" into a block of the configuration, a number where it reads as one.
+void apply_setting(const std::string& option, const std::string& setting,
+                   nlohmann::json& block) {
     const std::size_t equals = setting.find('=');
     require(equals != std::string::npos && equals > 0 && equals + 1 < setting.size(),
-            fmt::format("--set {} (expected name=value, as in --set "
+            fmt::format("{} {} (expected name=value, as in --set "
                         "hardening_coefficient=2.8).",
-                        setting));
+                        option, setting));
     const std::string value = setting.substr(equals + 1);
     char* end = nullptr;
     const double number = std::strtod(value.c_str(), &end);
-    auto& entry = document["material"][setting.substr(0, equals)];
-    if (*end == '\0')
+    auto& entry = block[setting.substr(0, equals)];
+    if (*end == '\0' && number == std::floor(number) && std::abs(number) < 1e9)
+        entry = static_cast<long long>(number);
+    else if (*end == '\0')
         entry = number;
     else
         entry = value;
@@ -62,7 +67,10 @@ Configuration configuration_of(const RunOptions& options) {
     nlohmann::json document = file.json();
     if (!options.geometry.empty()) document["geometry"] = options.geometry;
     if (!options.fidelity.empty()) document["fidelity"] = options.fidelity;
-    for (const std::string& setting : options.settings) apply_setting(setting, document);
+    for (const std::string& setting : options.settings)
+        apply_setting("--set", setting, document["material"]);
+    for (const std::string& setting : options.numerics)
+        apply_setting("--numerics", setting, document["numerics"]);
     return read_configuration(JsonReader(document, "command line"));
 }
 
@@ -125,6 +133,12 @@ void add_run(CLI::App& app) {
             "--set", options->settings,
             "name=value of a material parameter, see `solver parameters`; may be "
             "repeated")
+        ->allow_extra_args(false);
+    command
+        ->add_option("--numerics", options->numerics,
+                     "name=value over the fidelity's own: elements_across_radius, "
+                     "grains_per_point, cfl, linear_viscosity, quadratic_viscosity, "
+                     "hourglass; may be repeated")
         ->allow_extra_args(false);
     command->add_option("--seed", options->shot.seed, "of the grain orientations")
         ->capture_default_str();

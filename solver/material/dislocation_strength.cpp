@@ -90,23 +90,15 @@ typename DislocationStrength<Real>::V DislocationStrength<Real>::hardening(
 template <class Real>
 void DislocationStrength<Real>::substep(Block& block, Step& step, double shortest,
                                         Slip& slip) const {
-    const Block before = block;
-    const V rho_free = broadcast(static_cast<Real>(parameters_.rho_mobile_free));
+    Outcome outcome;
     for (;;) {
-        solve_stress(block, step, slip);
-        evolve_densities(block, step, slip);
-        // Systems emptied by annihilation refill from rhoDfree, which decides nothing.
-        V growth = {};
-        for (int d = 0; d < slip_system_count; ++d) {
-            const V base = lane_max(before.mobile[d], rho_free);
-            growth = lane_max(growth,
-                              (block.mobile[d] - before.mobile[d]) * lane_inverse(base));
-        }
-        const double excess = largest_lane<Real>(growth) / largest_growth<Real>;
+        solve_stress(block, step, slip, outcome);
+        evolve_densities(block, step, slip, outcome);
+        const double excess = largest_lane<Real>(outcome.growth) / largest_growth<Real>;
         const auto duration = static_cast<double>(step.duration);
         block.next_substep = duration / std::max(excess, 0.5);
-        if (!(excess > 2) || duration <= shortest * (1 + 1e-6)) return;
-        block = before;
+        if (!(excess > 2) || duration <= shortest * (1 + 1e-6))
+            return accept(outcome, step, block);
         step.duration =
             static_cast<Real>(std::max(shortest, duration / std::min(excess, 4.0)));
     }
@@ -180,8 +172,8 @@ bool DislocationStrength<Real>::is_elastic(const V (&e)[5], V two_g, V threshold
 /// Backward Euler for e: e + dt sum_d M^d b rhoD V(e) sign = e_old + dt dev(D), Eqs.
 /// 4-14.
 template <class Real>
-void DislocationStrength<Real>::solve_stress(Block& block, const Step& step,
-                                             Slip& slip) const {
+void DislocationStrength<Real>::solve_stress(Block& block, const Step& step, Slip& slip,
+                                             Outcome& outcome) const {
     const V dt = broadcast<Real>(step.duration);
     const auto b = static_cast<Real>(parameters_.burgers_vector);
     const V two_g = 2 * step.shear_modulus;
@@ -198,7 +190,7 @@ void DislocationStrength<Real>::solve_stress(Block& block, const Step& step,
     }
     slip = Slip{};
     if (is_elastic(trial, two_g, threshold)) {
-        std::copy(trial, trial + 5, block.elastic);
+        std::copy(trial, trial + 5, outcome.elastic);
         std::fill(block.drag_root, block.drag_root + slip_system_count, V{});
         return;
     }
@@ -246,12 +238,7 @@ void DislocationStrength<Real>::solve_stress(Block& block, const Step& step,
         }
         if (!any_lane(change > strain_tolerance<Real>)) break;
     }
-    // The plastic strain is what the elastic strain left of the total, so that both add
-    // up whatever the iteration's last change was.
-    for (int k = 0; k < 5; ++k) {
-        block.plastic[k] += trial[k] - e[k];
-        block.elastic[k] = e[k];
-    }
+    std::copy(e, e + 5, outcome.elastic);
 }
 
 /// Kinetics of Eqs. 15-19 and the annihilated energy of Eq. 21, sinks implicit.
@@ -259,8 +246,9 @@ void DislocationStrength<Real>::solve_stress(Block& block, const Step& step,
 /// exactly it is rhoD -> sqrt(rhoD^2 + 2 rhoD QD dt), which holds over steps in which
 /// rhoD doubles.
 template <class Real>
-void DislocationStrength<Real>::evolve_densities(Block& block, const Step& step,
-                                                 const Slip& slip) const {
+void DislocationStrength<Real>::evolve_densities(const Block& block, const Step& step,
+                                                 const Slip& slip,
+                                                 Outcome& outcome) const {
     const Parameters& p = parameters_;
     const V dt = broadcast<Real>(step.duration);
     const auto generation =
@@ -271,7 +259,9 @@ void DislocationStrength<Real>::evolve_densities(Block& block, const Step& step,
     const auto rho_free = static_cast<Real>(p.rho_mobile_free);
     const auto line_energy =
         static_cast<Real>(p.dislocation_energy * electron_volt / p.burgers_vector);
+    const V free_density = broadcast(rho_free);
     V annihilation = {};
+    outcome.growth = V{};
     for (int d = 0; d < slip_system_count; ++d) {
         const V mobile = block.mobile[d];
         const V immobile = block.immobile[d];
@@ -285,10 +275,30 @@ void DislocationStrength<Real>::evolve_densities(Block& block, const Step& step,
         const V next_immobile = (immobile + dt * capture * (next - rho_free)) *
                                 lane_inverse(1 + dt * (sweep * next + step.dilatation));
         annihilation += sweep * next * (2 * next + 2 * next_immobile);
-        block.mobile[d] = next;
-        block.immobile[d] = lane_max(next_immobile, broadcast<Real>(1));
+        outcome.mobile[d] = next;
+        outcome.immobile[d] = lane_max(next_immobile, broadcast<Real>(1));
+        // Systems emptied by annihilation refill from rhoDfree, which decides nothing.
+        outcome.growth =
+            lane_max(outcome.growth,
+                     (next - mobile) * lane_inverse(lane_max(mobile, free_density)));
     }
-    block.annihilated_energy += dt * line_energy * annihilation;
+    outcome.annihilated_energy =
+        block.annihilated_energy + dt * line_energy * annihilation;
+}
+
+/// The plastic strain is what the elastic strain left of the total, so that both add up
+/// whatever the last iteration of the stress changed.
+template <class Real>
+void DislocationStrength<Real>::accept(const Outcome& outcome, const Step& step,
+                                       Block& block) const {
+    for (int k = 0; k < 5; ++k) {
+        block.plastic[k] +=
+            block.elastic[k] + step.duration * step.rate[k] - outcome.elastic[k];
+        block.elastic[k] = outcome.elastic[k];
+    }
+    std::copy(outcome.mobile, outcome.mobile + slip_system_count, block.mobile);
+    std::copy(outcome.immobile, outcome.immobile + slip_system_count, block.immobile);
+    block.annihilated_energy = outcome.annihilated_energy;
 }
 
 template <class Real>

@@ -60,9 +60,20 @@ class DislocationStrength final : public Strength<Real> {
         V power;                     ///< S : wdot [W/m3]
     };
 
+    /// Where a substep would lead.
+    struct Outcome {
+        V elastic[5];
+        V mobile[slip_system_count];
+        V immobile[slip_system_count];
+        V annihilated_energy;
+        V growth;  ///< of the mobile density that grew most, above one
+    };
+
     bool is_elastic(const V (&e)[5], V two_g, V threshold) const;
-    void solve_stress(Block& block, const Step& step, Slip& slip) const;
-    void evolve_densities(Block& block, const Step& step, const Slip& slip) const;
+    void solve_stress(Block& block, const Step& step, Slip& slip, Outcome& outcome) const;
+    void evolve_densities(const Block& block, const Step& step, const Slip& slip,
+                          Outcome& outcome) const;
+    void accept(const Outcome& outcome, const Step& step, Block& block) const;
     V hardening(const Block& block, V shear_modulus) const;
     void substep(Block& block, Step& step, double shortest, Slip& slip) const;
 

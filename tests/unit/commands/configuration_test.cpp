@@ -38,9 +38,24 @@ TEST_CASE("the material block changes what it names", "[configuration]") {
     CHECK(configuration.document["fidelity"] == "standard");
 }
 
+TEST_CASE("the numerics block overrides the fidelity", "[configuration]") {
+    const impact::Numerics own = configuration_of(nlohmann::json::object()).numerics;
+    const impact::Numerics numerics =
+        configuration_of(
+            {{"numerics", {{"elements_across_radius", 24}, {"hourglass", 0.15}}}})
+            .numerics;
+    CHECK(numerics.elements_across_radius == 24);
+    CHECK(numerics.hourglass == 0.15);
+    CHECK(numerics.grains_per_point == own.grains_per_point);
+    CHECK(numerics.cfl == own.cfl);
+}
+
 TEST_CASE("a wrong configuration is refused at its key", "[configuration]") {
     CHECK_THROWS_WITH(configuration_of({{"fidelty", "fine"}}),
                       Contains("solver.json: fidelty") && Contains("\"fidelity\""));
+    CHECK_THROWS_WITH(
+        configuration_of({{"numerics", {{"elements_across_radius", 0}}}}),
+        Contains("numerics.elements_across_radius = 0") && Contains("expected 1 to 200"));
     CHECK_THROWS_WITH(configuration_of({{"material", {{"strength", 2}}}}),
                       Contains("material.strength = 2"));
     CHECK_THROWS_WITH(configuration_of({{"material", {{"taylor_quinney", 1.5}}}}),

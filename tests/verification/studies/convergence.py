@@ -1,0 +1,113 @@
+"""Sizes against the number of cells or particles: table, extrapolated values and figure."""
+
+import sys
+
+import matplotlib
+import numpy as np
+import pandas as pd
+from impact_runs import SHAPE_WORDS, SHAPES, SIZES, read_run
+from impact_study import (
+    AXISYMMETRIC_ELEMENTS,
+    SOLID_ELEMENTS,
+    VELOCITIES,
+    axisymmetric_name,
+    solid_name,
+)
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+
+DRAWN = SIZES[:5]
+COLOURS = dict(zip(SIZES, plt.get_cmap("tab10").colors))
+FITTED = 3  # finest settings that the extrapolation sees
+
+
+def collect(runs):
+    """One row a run: what it was, its sizes [mm] and its cost."""
+    rows = []
+    for geometry, levels, name_of in [
+        ("axisymmetric", AXISYMMETRIC_ELEMENTS, axisymmetric_name),
+        ("3d", SOLID_ELEMENTS, solid_name),
+    ]:
+        for elements in levels:
+            for shape in SHAPES:
+                for velocity in VELOCITIES:
+                    answer = read_run(runs, name_of(elements, shape, velocity))
+                    cost = {key: answer[key] for key in ["points", "steps", "cpu_s", "status"]}
+                    rows.append(
+                        {
+                            "geometry": geometry,
+                            "elements": elements,
+                            "shape": shape,
+                            "velocity_m_s": velocity,
+                            **cost,
+                            **answer["sizes"],
+                        }
+                    )
+    return pd.DataFrame(rows)
+
+
+def extrapolated(part):
+    """{size: value at vanishing element} of one case: a straight line in the element's width
+    through the finest settings."""
+    finest = part.nlargest(FITTED, "elements")
+    width = 1 / finest["elements"]
+    return {size: np.polyfit(width, finest[size], 1)[1] for size in SIZES}
+
+
+def add_limits(table):
+    """Adds each size's deviation from the axisymmetric limit of its case [%]."""
+    table = table.copy()
+    for _, part in table.groupby(["shape", "velocity_m_s"]):
+        limit = extrapolated(part[part["geometry"] == "axisymmetric"])
+        for size in SIZES:
+            deviation = 100 * (part[size] / limit[size] - 1) if limit[size] > 1 else np.nan
+            table.loc[part.index, f"{size}_deviation_percent"] = deviation
+    return table
+
+
+def draw(table, path):
+    figure, axes = plt.subplots(
+        len(SHAPES), len(VELOCITIES), figsize=(11, 12), sharex=True, layout="constrained"
+    )
+    for row, shape in zip(axes, SHAPES):
+        for axis, velocity in zip(row, VELOCITIES):
+            case = table[(table["shape"] == shape) & (table["velocity_m_s"] == velocity)]
+            for geometry, style in [("axisymmetric", "o-"), ("3d", "s:")]:
+                part = case[case["geometry"] == geometry]
+                for size in DRAWN:
+                    axis.plot(
+                        part["elements"],
+                        part[f"{size}_deviation_percent"],
+                        style,
+                        markersize=4,
+                        color=COLOURS[size],
+                        label=f"{size.removesuffix('_mm').replace('_', ' ')}, {geometry}",
+                    )
+            axis.axhspan(-1, 1, color="0.92", zorder=0)
+            axis.set_title(f"{SHAPE_WORDS[shape]}, {velocity} m/s", fontsize=10)
+            axis.set_yscale("symlog", linthresh=2)
+            axis.set_ylim(-40, 40)
+            axis.set_yticks([-30, -10, -2, -1, 0, 1, 2, 10, 30])
+            axis.set_yticklabels(["-30", "-10", "-2", "-1", "0", "1", "2", "10", "30"])
+    for axis in axes[-1]:
+        axis.set_xlabel("cells or particles across the rear's radius")
+    for axis in axes[:, 0]:
+        axis.set_ylabel("from the axisymmetric limit [%]")
+    handles, labels = axes[0, 0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncol=2, fontsize=9)
+    figure.savefig(path, dpi=110)
+
+
+def main(runs, table_path, figure_path):
+    table = add_limits(collect(runs))
+    table.round(4).to_csv(table_path, index=False)
+    draw(table, figure_path)
+    columns = [f"{size}_deviation_percent" for size in DRAWN]
+    worst = table.groupby(["geometry", "elements"])[columns].agg(lambda x: x.abs().max())
+    print(worst.round(2).to_string())
+    print(table.groupby(["geometry", "elements", "shape"])["cpu_s"].max().round(1).to_string())
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

@@ -1,0 +1,83 @@
+"""What halving the artificial viscosity or the hourglass control does to the sizes."""
+
+import sys
+
+import matplotlib
+import numpy as np
+import pandas as pd
+from impact_runs import SHAPE_WORDS, SHAPES, SIZES, read_run
+from impact_study import (
+    DISSIPATION_CHANGES,
+    DISSIPATION_SETTINGS,
+    DISSIPATION_VELOCITY,
+    dissipation_name,
+)
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+
+DRAWN = SIZES[:5]
+WORDS = {"viscosity0.5": "half the viscosity", "hourglass0.5": "half the hourglass control"}
+
+
+def collect(runs):
+    rows = []
+    for setting in DISSIPATION_SETTINGS:
+        for shape in SHAPES:
+            whole = read_run(runs, dissipation_name(setting, shape, ""))
+            for change in DISSIPATION_CHANGES[1:]:
+                halved = read_run(runs, dissipation_name(setting, shape, change))
+                rows.append(
+                    {
+                        "geometry": setting[0],
+                        "shape": shape,
+                        "change": change,
+                        "viscous_share": whole["descriptors"]["viscous_share"],
+                        "hourglass_share": whole["descriptors"]["hourglass_share"],
+                        **{
+                            f"{size}_change_percent": 100
+                            * (halved["sizes"][size] / whole["sizes"][size] - 1)
+                            for size in SIZES
+                        },
+                    }
+                )
+    return pd.DataFrame(rows)
+
+
+def draw(table, path):
+    figure, axes = plt.subplots(
+        len(DISSIPATION_SETTINGS), len(SHAPES), figsize=(13, 6), sharex=True, sharey="row"
+    )
+    for row, (geometry, *_) in zip(axes, DISSIPATION_SETTINGS):
+        for axis, shape in zip(row, SHAPES):
+            part = table[(table["geometry"] == geometry) & (table["shape"] == shape)]
+            for k, (_, line) in enumerate(part.iterrows()):
+                values = [line[f"{size}_change_percent"] for size in DRAWN]
+                axis.bar(
+                    np.arange(len(DRAWN)) + 0.4 * k - 0.2, values, 0.38, label=WORDS[line["change"]]
+                )
+            axis.axhspan(-0.5, 0.5, color="0.92", zorder=0)
+            axis.set_title(
+                f"{SHAPE_WORDS[shape]}, {geometry}\nviscous {100 * line['viscous_share']:.1f} %,"
+                f" hourglass {100 * line['hourglass_share']:.1f} % of the energy",
+                fontsize=9,
+            )
+            words = [size.removesuffix("_mm").replace("_", "\n") for size in DRAWN]
+            axis.set_xticks(range(len(DRAWN)), words, fontsize=8)
+    for axis in axes[:, 0]:
+        axis.set_ylabel("change of the size [%]")
+    axes[0, 0].legend(fontsize=8)
+    figure.suptitle(f"{DISSIPATION_VELOCITY} m/s", fontsize=10)
+    figure.tight_layout()
+    figure.savefig(path, dpi=110)
+
+
+def main(runs, table_path, figure_path):
+    table = collect(runs)
+    table.round(4).to_csv(table_path, index=False)
+    draw(table, figure_path)
+    print(table.round(3).to_string())
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

@@ -41,6 +41,8 @@ class DislocationStrength final : public Strength<Real> {
         V annihilated_energy;            ///< J [J/m3]
         V shear_modulus;                 ///< G of the last step [Pa]
         double next_substep;             ///< that the kinetics allow [s]
+        V rest_dilatation;               ///< integral of div v while at rest
+        double rest_time;                ///< since no system slips [s]
     };
 
     /// What a substep needs besides the block.
@@ -69,7 +71,9 @@ class DislocationStrength final : public Strength<Real> {
         V growth;  ///< of the mobile density that grew most, above one
     };
 
-    bool is_elastic(const V (&e)[5], V two_g, V threshold) const;
+    bool is_elastic(const Block& block, const Step& step) const;
+    void rest(Block& block, const Step& step) const;
+    void end_rest(Block& block) const;
     void solve_stress(Block& block, const Step& step, Slip& slip, Outcome& outcome) const;
     void evolve_densities(const Block& block, const Step& step, const Slip& slip,
                           Outcome& outcome) const;

@@ -53,6 +53,14 @@ inline Vector lane_sqrt(Vector a) {
     return a;
 }
 
+/// A function of every lane, one by one: not for hot loops.
+template <class Vector, class Function>
+inline Vector lane_map(Vector a, Function function) {
+    constexpr std::size_t count = sizeof(Vector) / sizeof(a[0]);
+    for (std::size_t lane = 0; lane < count; ++lane) a[lane] = function(a[lane]);
+    return a;
+}
+
 /// 1/a and 1/sqrt(a) to rounding (float: within two units in the last place).
 template <class Vector>
 inline Vector lane_inverse(Vector a) {

@@ -25,6 +25,7 @@ class Hdf5Writer {
     void matrix(const std::string& name, const RowMatrix& values);
     void numbers(const std::string& name, const std::vector<double>& values);
     void integers(const std::string& name, const std::vector<std::int64_t>& values);
+    void bytes(const std::string& name, const std::vector<std::uint8_t>& values);
     void texts(const std::string& name, const std::vector<std::string>& values);
     /// Attributes of the file, or of the object `on`.
     void attribute(const std::string& name, const std::string& text,
@@ -32,6 +33,11 @@ class Hdf5Writer {
     void attribute(const std::string& name, double number, const std::string& on = "/");
     void attribute(const std::string& name, const std::vector<std::string>& texts,
                    const std::string& on = "/");
+    void attribute(const std::string& name, const std::vector<std::int64_t>& integers,
+                   const std::string& on = "/");
+    /// A text of fixed length in ASCII, which some readers insist on.
+    void ascii_attribute(const std::string& name, const std::string& text,
+                         const std::string& on = "/");
     /// Flushes to the disk and renames to the final name.
     void close();
 

@@ -115,6 +115,10 @@ void Hdf5Writer::integers(const std::string& name,
     write_dataset(file_, path_, name, H5T_NATIVE_INT64, {values.size()}, values.data());
 }
 
+void Hdf5Writer::bytes(const std::string& name, const std::vector<std::uint8_t>& values) {
+    write_dataset(file_, path_, name, H5T_NATIVE_UINT8, {values.size()}, values.data());
+}
+
 void Hdf5Writer::texts(const std::string& name, const std::vector<std::string>& values) {
     write_dataset(file_, path_, name, text_type(), {values.size()},
                   pointers(values).data());
@@ -135,6 +139,20 @@ void Hdf5Writer::attribute(const std::string& name, const std::vector<std::strin
                            const std::string& on) {
     write_attribute(file_, path_, name, on, text_type(), {texts.size()},
                     pointers(texts).data());
+}
+
+void Hdf5Writer::attribute(const std::string& name,
+                           const std::vector<std::int64_t>& integers,
+                           const std::string& on) {
+    write_attribute(file_, path_, name, on, H5T_NATIVE_INT64, {integers.size()},
+                    integers.data());
+}
+
+void Hdf5Writer::ascii_attribute(const std::string& name, const std::string& text,
+                                 const std::string& on) {
+    const Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+    H5Tset_size(type, text.size());
+    write_attribute(file_, path_, name, on, type, {}, text.data());
 }
 
 void Hdf5Writer::close() {

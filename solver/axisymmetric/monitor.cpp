@@ -18,7 +18,8 @@ constexpr std::int64_t steps_between_extremes = 10;
 
 Monitor::Monitor(const Body& body, const impact::ImpactCase& impact_case)
     : record_interval_(impact_case.numerics.stop_time_limit_s / 2 /
-                       std::max(1, impact_case.history_samples)) {
+                       std::max(1, impact_case.history_samples)),
+      snapshot_interval_(impact_case.snapshot_interval_s) {
     record(body);
 }
 
@@ -48,6 +49,10 @@ void Monitor::observe(const Body& body) {
         }
     }
     if (body.time >= next_record_) record(body);
+    if (snapshot_interval_ > 0 && body.time >= next_snapshot_) {
+        snapshots_.push_back(fields(body));
+        next_snapshot_ += snapshot_interval_;
+    }
 }
 
 void Monitor::record(const Body& body) {
@@ -81,6 +86,9 @@ void Monitor::report(const Body& body, double stop_time,
     impact::Descriptors& d = result.descriptors;
     result.history = history_;
     result.fields = fields(body);
+    result.snapshots = snapshots_;
+    if (!snapshots_.empty() && snapshots_.back().time_us < result.fields.time_us)
+        result.snapshots.push_back(result.fields);
     d.stop_time_us = stop_time * 1e6;
     d.largest_temperature_K = largest_temperature_;
     d.peak_strain_rate_per_s = peak_contact_rate_;

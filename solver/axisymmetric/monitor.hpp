@@ -22,6 +22,9 @@ class Monitor {
     void record(const Body& body);
 
     double record_interval_;
+    double snapshot_interval_;
+    double next_snapshot_ = 0;
+    std::vector<impact::Fields> snapshots_;
     double next_record_ = 0;
     double contact_rate_ = 0;  ///< smoothed radial rate of the contact spot [1/s]
     double peak_contact_rate_ = 0;

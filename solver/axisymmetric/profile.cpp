@@ -46,16 +46,22 @@ observe::DeformedProfile deformed_profile(const Body& body,
 
 impact::Fields fields(const Body& body) {
     impact::Fields out;
+    out.time_us = 1e6 * body.time;
     constexpr double to_mm = 1e3;
     const auto grains = static_cast<std::size_t>(body.numerics.grains_per_point);
     for (std::size_t c = 0; c < body.cells(); ++c) {
         double r = 0, z = 0, r0 = 0, z0 = 0;
-        for (const std::size_t n : body.mesh.cells[c]) {
+        std::array<double, 8> corners{};
+        for (std::size_t a = 0; a < 4; ++a) {
+            const std::size_t n = body.mesh.cells[c][a];
+            corners[2 * a] = body.radius[n] * to_mm;
+            corners[2 * a + 1] = body.height[n] * to_mm;
             r += body.radius[n] / 4;
             z += body.height[n] / 4;
             r0 += body.mesh.node_radius[n] / 4;
             z0 += body.mesh.node_height[n] / 4;
         }
+        out.corners_mm.push_back(corners);
         out.x_mm.push_back(r * to_mm);
         out.y_mm.push_back(0);
         out.z_mm.push_back(z * to_mm);

@@ -4,6 +4,7 @@
 #include "solver/commands/run_file.hpp"
 #include "solver/commands/run_table.hpp"
 #include "solver/commands/shot.hpp"
+#include "solver/commands/vtk_series.hpp"
 #include "solver/impact/simulate.hpp"
 
 #include <cmath>
@@ -28,6 +29,8 @@ struct RunOptions {
     Shot shot;
     double until_us = 0;
     std::string out;
+    std::string snapshots;
+    double snapshot_interval_us = 5;
     bool json = false;
 };
 
@@ -35,6 +38,7 @@ const char* const samples = R"(Sample runs:
   solver run --shape truncated_cone --velocity 120
   solver run solver.json --shape reduced_head_3mm --velocity 90 --out run.h5
   solver run --velocity 117.6 --geometry 3d --set hardening_coefficient=2.8
+  solver run --shape reduced_head_3mm --velocity 90 --snapshots fields --every-us 10
   solver run --velocity 227 --diameter-mm 6.4 --length-mm 32.4 --until-us 80 \
     --set strength=j2 --set equation_of_state=linear --set bulk_modulus=130e9 \
     --set poisson_ratio=0.35)";
@@ -83,11 +87,18 @@ void run(RunOptions options) {
             fmt::format("--until-us {} (expected 0 to 10000).", options.until_us));
     impact_case.run_until_s = 1e-6 * options.until_us;
 
+    require(options.snapshot_interval_us >= 0.01,
+            fmt::format("--every-us {} (expected 0.01 or more).",
+                        options.snapshot_interval_us));
+    if (!options.snapshots.empty())
+        impact_case.snapshot_interval_s = 1e-6 * options.snapshot_interval_us;
+
     const impact::ImpactResult result = impact::simulate(impact_case);
 
     const nlohmann::json description =
         describe(options.shot, configuration, options.until_us);
     if (!options.out.empty()) write_run_file(options.out, result, description);
+    if (!options.snapshots.empty()) write_vtk_series(options.snapshots, result.snapshots);
     fmt::print("{}", options.json ? run_json(result, description).dump(2) + "\n"
                                   : run_table(result, description));
     if (result.status == impact::Status::failed)
@@ -146,6 +157,12 @@ void add_run(CLI::App& app) {
                         "stop at this time [us] instead of with the rear");
     command->add_option("--out", options->out,
                         "HDF5 file of sizes, history, outline and fields");
+    command->add_option("--snapshots", options->snapshots,
+                        "folder for the fields on the way, as ParaView opens them");
+    command
+        ->add_option("--every-us", options->snapshot_interval_us,
+                     "time between snapshots [us]")
+        ->capture_default_str();
     command->add_flag("--json", options->json, "print JSON instead of tables");
     command->footer(samples);
     command->callback([options] { run(*options); });

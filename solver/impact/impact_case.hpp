@@ -45,6 +45,7 @@ struct ImpactCase {
     std::uint64_t seed = 1;     ///< of the grain orientations
     double run_until_s = 0;     ///< if positive: stop at this time, not with the rear
     int history_samples = 200;  ///< about as many time records
+    double snapshot_interval_s = 0;  ///< if positive: keep the fields so often
 };
 
 }  // namespace taylorcal::impact

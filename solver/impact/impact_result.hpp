@@ -2,6 +2,7 @@
 
 #include "solver/observe/sizes.hpp"
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -44,9 +45,10 @@ struct HistoryRecord {
     double total_energy_J;
 };
 
-/// Fields at the end, one entry a particle or cell; positions in mm (axisymmetric: y =
+/// Fields of one moment, one entry a particle or cell; positions in mm (axisymmetric: y =
 /// 0).
 struct Fields {
+    double time_us = 0;
     std::vector<double> x_mm, y_mm, z_mm;
     std::vector<double> initial_x_mm, initial_y_mm, initial_z_mm;
     std::vector<double> volume_mm3;
@@ -56,6 +58,8 @@ struct Fields {
     std::vector<double> pressure_GPa;
     std::vector<double> grain_diameter_um;
     std::vector<double> weakened_fraction;
+    /// Of each cell r1, z1, ... r4, z4 around it; empty for particles.
+    std::vector<std::array<double, 8>> corners_mm;
 };
 
 struct ImpactResult {
@@ -65,7 +69,8 @@ struct ImpactResult {
     Descriptors descriptors;
     observe::DeformedProfile profile;  ///< the outline
     std::vector<HistoryRecord> history;
-    Fields fields;
+    Fields fields;                  ///< at the end
+    std::vector<Fields> snapshots;  ///< on the way, and at the end; if asked for
     std::int64_t steps = 0;
     std::int64_t points = 0;  ///< particles or cells
     std::int64_t grain_updates = 0;

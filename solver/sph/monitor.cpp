@@ -150,6 +150,7 @@ impact::Descriptors Monitor::descriptors(std::optional<double> stop_time_s) cons
 
 impact::Fields Monitor::fields() const {
     impact::Fields f;
+    f.time_us = body_.time() * 1e6;
     const Packing& packing = body_.packing();
     const Particles& p = body_.particles();
     for_particles(packing, [&](std::size_t index, std::size_t lane, std::size_t slot) {

@@ -80,6 +80,9 @@ class Run {
         result.descriptors = monitor_.descriptors(stop_time_);
         result.history = monitor_.history();
         result.fields = monitor_.fields();
+        result.snapshots = snapshots_;
+        if (!snapshots_.empty() && snapshots_.back().time_us < result.fields.time_us)
+            result.snapshots.push_back(result.fields);
         result.steps = steps_;
         result.points = static_cast<std::int64_t>(body_.packing().particles);
         result.grain_updates = result.points * case_.numerics.grains_per_point * steps_;
@@ -100,6 +103,10 @@ class Run {
         if (body_.time() >= next_record_) {
             monitor_.record();
             next_record_ = body_.time() + record_interval_;
+        }
+        if (case_.snapshot_interval_s > 0 && body_.time() >= next_snapshot_) {
+            snapshots_.push_back(monitor_.fields());
+            next_snapshot_ += case_.snapshot_interval_s;
         }
         if (stop_time_ && case_.run_until_s <= 0 && body_.time() >= next_profile_) {
             profiles_.add(monitor_.outline().measure(body_.particles()));
@@ -167,6 +174,8 @@ class Run {
     double record_interval_ = 0;
     double next_record_ = 0;
     double next_profile_ = 0;
+    double next_snapshot_ = 0;
+    std::vector<impact::Fields> snapshots_;
     double ringing_period_ = 0;
     std::optional<double> stop_time_;
     std::int64_t steps_ = 0;

@@ -6,13 +6,7 @@ import matplotlib
 import numpy as np
 import pandas as pd
 from impact_runs import SHAPE_WORDS, SHAPES, SIZES, read_run
-from impact_study import (
-    AXISYMMETRIC_ELEMENTS,
-    SOLID_ELEMENTS,
-    VELOCITIES,
-    axisymmetric_name,
-    solid_name,
-)
+from impact_study import VELOCITIES, axisymmetric_name, convergence_cases, solid_name
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
@@ -25,25 +19,17 @@ FITTED = 3  # finest settings that the extrapolation sees
 def collect(runs):
     """One row a run: what it was, its sizes [mm] and its cost."""
     rows = []
-    for geometry, levels, name_of in [
-        ("axisymmetric", AXISYMMETRIC_ELEMENTS, axisymmetric_name),
-        ("3d", SOLID_ELEMENTS, solid_name),
-    ]:
-        for elements in levels:
-            for shape in SHAPES:
-                for velocity in VELOCITIES:
-                    answer = read_run(runs, name_of(elements, shape, velocity))
-                    cost = {key: answer[key] for key in ["points", "steps", "cpu_s", "status"]}
-                    rows.append(
-                        {
-                            "geometry": geometry,
-                            "elements": elements,
-                            "shape": shape,
-                            "velocity_m_s": velocity,
-                            **cost,
-                            **answer["sizes"],
-                        }
-                    )
+    for geometry, name_of in [("axisymmetric", axisymmetric_name), ("3d", solid_name)]:
+        for elements, shape, velocity in convergence_cases(geometry):
+            answer = read_run(runs, name_of(elements, shape, velocity))
+            cost = {key: answer[key] for key in ["points", "steps", "cpu_s", "status"]}
+            case = {
+                "geometry": geometry,
+                "elements": elements,
+                "shape": shape,
+                "velocity_m_s": velocity,
+            }
+            rows.append(case | cost | answer["sizes"])
     return pd.DataFrame(rows)
 
 

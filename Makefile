@@ -3,7 +3,7 @@ SHELL := /bin/bash
 .SHELLFLAGS := -euo pipefail -c
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help setup configure build demo test bench clean \
+.PHONY: help setup configure build demo test bench paper accuracy clean \
         lint lint-format lint-tidy lint-workflow lint-python
 
 # Debian's own interpreters: another python3 first on PATH would lack the packages.
@@ -55,6 +55,13 @@ lint-workflow: setup
 lint-python: setup
 	@black --check $(shell git ls-files '*.py')
 	@flake8 $(shell git ls-files '*.py')
+
+paper: build ## the source paper's statements beside ours, with figures
+	$(SNAKEMAKE) --snakefile tests/verification/Snakefile --cores $(JOBS) paper
+	@cat results/verification/paper.txt
+
+accuracy: build ## convergence, scatter and dissipation of the solver; half an hour
+	$(SNAKEMAKE) --snakefile tests/verification/Snakefile --cores $(JOBS) accuracy
 
 bench: build ## speed of the solver, the network and the sampler
 	@.ci/bench $(BUILD)

@@ -14,9 +14,10 @@ namespace {
 constexpr double cylinder_aspect = 2;
 constexpr double head_aspect = 2;
 constexpr double cone_aspect = 6;
-// At the middle of the tip the frictionless anvil thins the metal a hundredfold: the
-// first row is as tall as so many, or its thin cells would set the step.
-constexpr std::ptrdiff_t cone_tip_rows = 3;
+// At the middle of the tip the frictionless anvil thins the metal a hundredfold: up to so
+// many rows, no taller than so many radii, become one, or thin cells would set the step.
+constexpr int cone_tip_rows = 3;
+constexpr double cone_tip_radii = 3;
 // A cone keeps its columns from tip to rear; fewer than across the rear keep its tip's
 // cells, which set the stable step, from becoming needlessly small.
 constexpr double cone_column_share = 5.0 / 8;
@@ -74,8 +75,11 @@ std::vector<double> rows_of(const Section& section, std::size_t columns, double 
         }
         rows.back() = stops[s + 1];
     }
-    if (section.top_radius > section.bottom_radius && rows.size() > cone_tip_rows + 1)
-        rows.erase(rows.begin() + 1, rows.begin() + cone_tip_rows);
+    if (section.top_radius > section.bottom_radius) {
+        const double tallest = rows[0] + cone_tip_radii * section.bottom_radius;
+        for (int joined = 1; joined < cone_tip_rows; ++joined)
+            if (rows.size() > 2 && rows[2] <= tallest) rows.erase(rows.begin() + 1);
+    }
     return rows;
 }
 

@@ -63,17 +63,17 @@ nlohmann::json batch_provenance(const nlohmann::json& configuration) {
     return record;
 }
 
-/// Computes the rows `todo`; each is in the journal before the next begins.
-void compute_rows(const std::vector<std::size_t>& todo, const Design& design,
+/// Computes the rows `missing`; each is in the journal before the next begins.
+void compute_rows(const std::vector<std::size_t>& missing, const Design& design,
                   const std::vector<impact::ImpactCase>& cases, int threads,
                   const Simulate& simulate, Journal& journal,
                   std::vector<FinishedRun>& runs) {
-    Progress progress("runs", todo.size());
+    Progress progress("runs", missing.size());
     std::exception_ptr failure;
-    const auto count = static_cast<std::int64_t>(todo.size());
+    const auto count = static_cast<std::int64_t>(missing.size());
 #pragma omp parallel for schedule(dynamic) num_threads(threads)
     for (std::int64_t i = 0; i < count; ++i) {
-        const std::size_t row = todo[static_cast<std::size_t>(i)];
+        const std::size_t row = missing[static_cast<std::size_t>(i)];
         bool give_up = false;
 #pragma omp critical(taylorcal_batch)
         give_up = failure != nullptr;
@@ -112,18 +112,18 @@ void run_batch(const Design& design, const std::vector<impact::ImpactCase>& case
     for (const FinishedRun& run : journal.found()) found[run.run_id] = run;
 
     std::vector<FinishedRun> runs(design.rows());
-    std::vector<std::size_t> todo;
+    std::vector<std::size_t> missing;
     for (std::size_t row = 0; row < design.rows(); ++row) {
         const auto known = found.find(design.run_id[row]);
         if (known == found.end())
-            todo.push_back(row);
+            missing.push_back(row);
         else
             runs[row] = known->second;
     }
     if (!found.empty())
         spdlog::info("{} of {} runs are in the journal already", found.size(),
                      design.rows());
-    compute_rows(todo, design, cases, threads, simulate, journal, runs);
+    compute_rows(missing, design, cases, threads, simulate, journal, runs);
     report_failures(runs);
     write_database(out, {design, runs, configuration, batch_provenance(configuration)});
     journal.remove();

@@ -15,6 +15,7 @@ impact::ImpactResult simulate(const impact::ImpactCase& impact_case);
 }  // namespace taylorcal::sph
 
 namespace taylorcal::impact {
-/// Dispatches to the case's geometry.
+/// Dispatches to the case's geometry; a run whose energy is not balanced within 2 % has
+/// failed.
 ImpactResult simulate(const ImpactCase& impact_case);
 }  // namespace taylorcal::impact

@@ -20,9 +20,9 @@ template <class Real>
 constexpr double largest_growth = sizeof(Real) == 4 ? 0.04 : 0.01;
 // A step is never cut into more than about as many substeps.
 constexpr double most_substeps = 200;
-constexpr int largest_iteration_count = 40;
-// From this iteration on the slope of the drag law is its secant, which cannot overshoot.
-constexpr int first_secant_iteration = 12;
+constexpr int largest_iteration_count = 100;
+// From this iteration on roots of the drag law are exact and steps may only improve.
+constexpr int first_careful_iteration = 12;
 
 template <class Real>
 inline Lanes<Real> resolve(const Real (&m)[5], const Lanes<Real> (&e)[5]) {
@@ -36,6 +36,31 @@ double largest_lane(const Lanes<Real>& values) {
         largest = std::max(largest, static_cast<double>(values[lane]));
     return largest;
 }
+
+/// Halves Newton's steps, lane by lane, where they made the residual larger. The
+/// equations are those of a convex potential, so that this cannot fail; plain steps do
+/// where drag saturates and thousands of times too many dislocations wait to slip.
+template <class Real>
+class LineSearch {
+  public:
+    /// Looks at the residual at e: where it grew, the next step goes half way back.
+    void turn_back(const Lanes<Real> (&e)[5], const Lanes<Real> (&residual)[5]) {
+        Lanes<Real> square = {};
+        for (int k = 0; k < 5; ++k) square += residual[k] * residual[k];
+        for (int k = 0; k < 5; ++k) best_[k] = square > smallest_ ? best_[k] : e[k];
+        worse_ = square > smallest_ ? broadcast<Real>(1) : broadcast<Real>(0);
+        smallest_ = square > smallest_ ? smallest_ : square;
+    }
+    /// Component k of the next e, given Newton's change of it.
+    Lanes<Real> step(int k, Lanes<Real> e, Lanes<Real> change) const {
+        return worse_ > 0 ? (e + best_[k]) / 2 : e + change;
+    }
+
+  private:
+    Lanes<Real> best_[5] = {};
+    Lanes<Real> smallest_ = broadcast<Real>(std::numeric_limits<Real>::max());
+    Lanes<Real> worse_ = {};
+};
 
 template <class Real>
 constexpr Real strain_tolerance = sizeof(Real) == 4 ? Real(5e-7) : Real(1e-12);
@@ -101,7 +126,7 @@ void DislocationStrength<Real>::substep(Block& block, Step& step, double shortes
         const auto duration = static_cast<double>(step.duration);
         block.next_substep = duration / std::max(excess, 0.5);
         if (!(excess > 2) || duration <= shortest * (1 + 1e-6))
-            return accept(outcome, step, block);
+            return accept(outcome, step, block, slip);
         step.duration =
             static_cast<Real>(std::max(shortest, duration / std::min(excess, 4.0)));
     }
@@ -232,28 +257,35 @@ void DislocationStrength<Real>::solve_stress(Block& block, const Step& step, Sli
         e[k] = block.elastic[k];
     }
     V slip_strain[5];
+    LineSearch<Real> search;
     for (int iteration = 0; iteration < largest_iteration_count; ++iteration) {
+        const bool careful = iteration >= first_careful_iteration;
+        if (iteration == first_careful_iteration)
+            std::copy(block.elastic, block.elastic + 5, e);
         V jacobian[15] = {};  // lower triangle of I + dt 2G sum_d rhoD dV/dX b^2 M M
         V residual[5];
-        slip.power = V{};
         for (int k = 0; k < 5; ++k) slip_strain[k] = V{};
         for (int d = 0; d < slip_system_count; ++d) {
             const Real(&m)[5] = schmid_[d];
             const V resolved = two_g * resolve<Real>(m, e);
             const V excess = lane_max(lane_abs(resolved) - threshold, V{});
             const V zeta = scale * excess;
-            const V steepness = drag_steepness(block.drag_root[d]);
-            const V z = drag_root_step(zeta, block.drag_root[d], steepness);
+            V steepness, z;
+            if (careful) {
+                z = drag_root(zeta);
+                steepness = drag_steepness(z);
+            } else {
+                steepness = drag_steepness(block.drag_root[d]);
+                z = drag_root_step(zeta, block.drag_root[d], steepness);
+            }
             const V contraction = drag_contraction(z);
             const V speed = step.sound_speed * z * contraction;
             const V rate = b * block.mobile[d] * speed;
             slip.speed[d] = speed;
             slip.force[d] = b * excess;
-            slip.power += lane_abs(resolved) * rate;
             block.drag_root[d] = excess > 0 ? z : V{};
-            V slope =
-                slope_scale * block.mobile[d] * contraction * contraction * contraction;
-            if (iteration < first_secant_iteration) slope *= steepness;
+            V slope = slope_scale * block.mobile[d] * steepness * contraction *
+                      contraction * contraction;
             slope = excess > 0 ? slope : V{};
             const V strain = dt * (resolved < 0 ? -rate : rate);
             for (int i = 0; i < 5; ++i) {
@@ -266,12 +298,13 @@ void DislocationStrength<Real>::solve_stress(Block& block, const Step& step, Sli
             jacobian[k * (k + 1) / 2 + k] += 1;
             residual[k] = trial[k] - slip_strain[k] - e[k];
         }
+        if (careful) search.turn_back(e, residual);
         solve_symmetric<5>(jacobian, residual);
-        V change = lane_abs(residual[0]);
-        e[0] += residual[0];
-        for (int k = 1; k < 5; ++k) {
-            change = lane_max(change, lane_abs(residual[k]));
-            e[k] += residual[k];
+        V change = {};
+        for (int k = 0; k < 5; ++k) {
+            const V next = search.step(k, e[k], residual[k]);
+            change = lane_max(change, lane_abs(next - e[k]));
+            e[k] = next;
         }
         if (!any_lane(change > strain_tolerance<Real>)) break;
     }
@@ -323,16 +356,20 @@ void DislocationStrength<Real>::evolve_densities(const Block& block, const Step&
         block.annihilated_energy + dt * line_energy * annihilation;
 }
 
-/// The plastic strain is what the elastic strain left of the total, so that both add up
-/// whatever the last iteration of the stress changed.
+/// The plastic strain is what the elastic strain left of the total, and the work is done
+/// on that strain, so that both add up whatever the last iteration of the stress changed.
 template <class Real>
 void DislocationStrength<Real>::accept(const Outcome& outcome, const Step& step,
-                                       Block& block) const {
+                                       Block& block, Slip& slip) const {
+    V work = {};
     for (int k = 0; k < 5; ++k) {
-        block.plastic[k] +=
+        const V increment =
             block.elastic[k] + step.duration * step.rate[k] - outcome.elastic[k];
+        work += outcome.elastic[k] * increment;
+        block.plastic[k] += increment;
         block.elastic[k] = outcome.elastic[k];
     }
+    slip.power = 2 * step.shear_modulus * work / step.duration;
     std::copy(outcome.mobile, outcome.mobile + slip_system_count, block.mobile);
     std::copy(outcome.immobile, outcome.immobile + slip_system_count, block.immobile);
     block.annihilated_energy = outcome.annihilated_energy;

@@ -77,7 +77,7 @@ class DislocationStrength final : public Strength<Real> {
     void solve_stress(Block& block, const Step& step, Slip& slip, Outcome& outcome) const;
     void evolve_densities(const Block& block, const Step& step, const Slip& slip,
                           Outcome& outcome) const;
-    void accept(const Outcome& outcome, const Step& step, Block& block) const;
+    void accept(const Outcome& outcome, const Step& step, Block& block, Slip& slip) const;
     V hardening(const Block& block, V shear_modulus) const;
     void substep(Block& block, Step& step, double shortest, Slip& slip) const;
 

@@ -2,6 +2,9 @@
 
 #include "solver/material/lanes.hpp"
 
+#include <cmath>
+#include <numbers>
+
 namespace taylorcal::material {
 
 // The drag balance B V / (1 - V^2/ct^2)^(3/2) = X (Eq. 12) in dimensionless form:
@@ -14,6 +17,17 @@ namespace taylorcal::material {
 template <class Vector>
 inline Vector drag_root_step(Vector zeta, Vector z, Vector steepness) {
     return (zeta + 2 * z * z * z) * steepness;
+}
+
+/// The root itself, z = (2/sqrt 3) sinh(asinh(1.5 sqrt 3 zeta)/3); lane by lane.
+template <class Vector>
+inline Vector drag_root(Vector zeta) {
+    return lane_map(zeta, [](auto x) {
+        using Real = decltype(x);
+        constexpr double root_3 = std::numbers::sqrt3;
+        return static_cast<Real>(2 / root_3) *
+               std::sinh(std::asinh(static_cast<Real>(1.5 * root_3) * x) / 3);
+    });
 }
 
 /// 1/(3 z^2 + 1): the tangent slope dv/dzeta is it times the secant slope v/zeta.

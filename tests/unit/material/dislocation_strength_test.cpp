@@ -141,3 +141,29 @@ TEST_CASE("single precision follows double through a large strain") {
     CHECK(single->state(0).immobile_density_m2 ==
           Approx(twice->state(0).immobile_density_m2).epsilon(1e-3));
 }
+
+TEMPLATE_TEST_CASE("an avalanche of slip releases no more than the work put in", "",
+                   float, double) {
+    // So many dislocations hold the metal to 7 GPa and annihilate the mobile ones; then
+    // thousands of times more than slip can use multiply within nanoseconds.
+    Parameters strong;
+    strong.rho_immobile_initial = 3.4e14;
+    strong.hardening_coefficient = 6.1;
+    strong.immobilization_velocity = 0;
+    auto strength = make_strength<TestType>(strong, {tilted});
+    const double step = 3e-8;
+    const Eigen::Matrix3d gradient = compression(2e4);
+    BlockOutput<TestType> output;
+    Eigen::Matrix3d before = Eigen::Matrix3d::Zero();
+    double work = 0, plastic_work = 0;
+    for (int i = 0; i < 400; ++i) {
+        strength->update(0, motion<TestType>(gradient, step), output);
+        const Eigen::Matrix3d after = stress(output);
+        work += ((before + after) / 2).cwiseProduct(gradient).sum() * step;
+        plastic_work += static_cast<double>(output.plastic_power[0]) * step;
+        before = after;
+        REQUIRE(plastic_work < 1.02 * work);
+        REQUIRE(std::sqrt(1.5) * after.norm() < 2e10);
+    }
+    CHECK(plastic_work > 0.5 * work);
+}

@@ -11,25 +11,27 @@ import sys
 WAIVED = "Specify a conda environment or container for each rule."
 
 
-def main() -> int:
-    run = subprocess.run(
-        ["/usr/bin/snakemake", "--lint", "json", "--cores", "1"], capture_output=True, text=True
-    )
+SNAKEFILES = ["Snakefile", "tests/verification/Snakefile"]
+
+
+def lint(snakefile: str) -> int:
+    command = ["/usr/bin/snakemake", "--snakefile", snakefile, "--lint", "json", "--cores", "1"]
+    run = subprocess.run(command, capture_output=True, text=True)
     try:
         report = json.loads(run.stdout)
     except json.JSONDecodeError:
         print(run.stdout, run.stderr, sep="\n", file=sys.stderr)
         return 1
     findings = [
-        f"{item['for']}: {lint['title']}"
+        f"{item['for']}: {found['title']}"
         for part in report.values()
         for item in part
-        for lint in item["lints"]
-        if lint["title"] != WAIVED
+        for found in item["lints"]
+        if found["title"] != WAIVED
     ]
     print(*findings, sep="\n", end="\n" if findings else "")
     return 1 if findings else 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(max(lint(snakefile) for snakefile in SNAKEFILES))

@@ -1,7 +1,5 @@
 """Sizes against the number of cells or particles: table, extrapolated values and figure."""
 
-import sys
-
 import matplotlib
 import numpy as np
 import pandas as pd
@@ -16,12 +14,12 @@ COLOURS = dict(zip(SIZES, plt.get_cmap("tab10").colors))
 FITTED = 3  # finest settings that the extrapolation sees
 
 
-def collect(runs):
+def collect():
     """One row a run: what it was, its sizes [mm] and its cost."""
     rows = []
     for geometry, name_of in [("axisymmetric", axisymmetric_name), ("3d", solid_name)]:
         for elements, shape, velocity in convergence_cases(geometry):
-            answer = read_run(runs, name_of(elements, shape, velocity))
+            answer = read_run(name_of(elements, shape, velocity))
             cost = {key: answer[key] for key in ["points", "steps", "cpu_s", "status"]}
             case = {
                 "geometry": geometry,
@@ -53,9 +51,7 @@ def add_limits(table):
 
 
 def draw(table, path):
-    figure, axes = plt.subplots(
-        len(SHAPES), len(VELOCITIES), figsize=(11, 12), sharex=True, layout="constrained"
-    )
+    figure, axes = plt.subplots(len(SHAPES), len(VELOCITIES), figsize=(11, 12), sharex=True)
     for row, shape in zip(axes, SHAPES):
         for axis, velocity in zip(row, VELOCITIES):
             case = table[(table["shape"] == shape) & (table["velocity_m_s"] == velocity)]
@@ -81,12 +77,13 @@ def draw(table, path):
     for axis in axes[:, 0]:
         axis.set_ylabel("from the axisymmetric limit [%]")
     handles, labels = axes[0, 0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncol=2, fontsize=9)
+    figure.legend(handles, labels, loc="lower center", ncol=2, fontsize=9)
+    figure.tight_layout(rect=(0, 0.1, 1, 1))
     figure.savefig(path, dpi=110)
 
 
-def main(runs, table_path, figure_path):
-    table = add_limits(collect(runs))
+def main(table_path, figure_path):
+    table = add_limits(collect())
     table.round(4).to_csv(table_path, index=False)
     draw(table, figure_path)
     columns = [f"{size}_deviation_percent" for size in DRAWN]
@@ -96,4 +93,4 @@ def main(runs, table_path, figure_path):
 
 
 if __name__ == "__main__":
-    main(*sys.argv[1:])
+    main(*snakemake.output)  # noqa: F821

@@ -1,7 +1,5 @@
 """What halving the artificial viscosity or the hourglass control does to the sizes."""
 
-import sys
-
 import matplotlib
 import numpy as np
 import pandas as pd
@@ -20,13 +18,13 @@ DRAWN = SIZES[:5]
 WORDS = {"viscosity0.5": "half the viscosity", "hourglass0.5": "half the hourglass control"}
 
 
-def collect(runs):
+def collect():
     rows = []
     for setting in DISSIPATION_SETTINGS:
         for shape in SHAPES:
-            whole = read_run(runs, dissipation_name(setting, shape, ""))
+            whole = read_run(dissipation_name(setting, shape, ""))
             for change in DISSIPATION_CHANGES[1:]:
-                halved = read_run(runs, dissipation_name(setting, shape, change))
+                halved = read_run(dissipation_name(setting, shape, change))
                 rows.append(
                     {
                         "geometry": setting[0],
@@ -72,12 +70,12 @@ def draw(table, path):
     figure.savefig(path, dpi=110)
 
 
-def main(runs, table_path, figure_path):
-    table = collect(runs)
+def main(table_path, figure_path):
+    table = collect()
     table.round(4).to_csv(table_path, index=False)
     draw(table, figure_path)
     print(table.round(3).to_string())
 
 
 if __name__ == "__main__":
-    main(*sys.argv[1:])
+    main(*snakemake.output)  # noqa: F821

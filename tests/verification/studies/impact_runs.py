@@ -5,6 +5,7 @@ A further part `hourglass0.15` or `viscosity0.5` scales that coefficient.
 
 import json
 import re
+import subprocess
 from pathlib import Path
 
 SHAPES = ["uniform_cylinder", "reduced_head_4mm", "reduced_head_3mm", "truncated_cone"]
@@ -26,6 +27,7 @@ SIZES = [
 VISCOSITY = {"linear_viscosity": 0.06, "quadratic_viscosity": 1.0}  # the solver's own
 HOURGLASS = {"axisymmetric": 0.3, "3d": 0.1}
 
+RUNS = Path("results/verification/runs")
 NAME = re.compile(
     r"(?P<geometry>axisymmetric|3d)_n(?P<elements>\d+)_g(?P<grains>\d+)_(?P<shape>\w+?)"
     r"_v(?P<velocity>[\d.]+)_s(?P<seed>\d+)(?:_(?P<what>viscosity|hourglass)(?P<factor>[\d.]+))?"
@@ -38,8 +40,9 @@ def run_name(geometry, elements, grains, shape, velocity, seed=1, change=""):
     return f"{name}_{change}" if change else name
 
 
-def arguments_of(name):
-    """Command line of `solver run` for a name."""
+def arguments_of(wildcards):
+    """Command line of `solver run` for the name `wildcards.run`."""
+    name = wildcards.run
     parts = NAME.fullmatch(name)
     if parts is None:
         raise ValueError(f"{name} is not the name of a run (expected {NAME.pattern})")
@@ -56,6 +59,17 @@ def arguments_of(name):
     return " ".join(words + [f"--numerics {key}={value}" for key, value in numerics.items()])
 
 
-def read_run(folder, name):
+def solver_version(wildcards):
+    """What `solver --version` says: another version computes the runs again."""
+    command = ["build/bin/solver", "--version"]
+    return subprocess.run(command, check=True, capture_output=True, text=True).stdout
+
+
+def files_of(names):
+    """Where the answers of these runs are."""
+    return [str(RUNS / f"{name}.json") for name in names]
+
+
+def read_run(name):
     """The answer of `solver run --json`."""
-    return json.loads((Path(folder) / f"{name}.json").read_text())
+    return json.loads((RUNS / f"{name}.json").read_text())

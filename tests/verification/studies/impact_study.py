@@ -1,6 +1,6 @@
 """Which impacts the studies of accuracy need."""
 
-from impact_runs import SHAPES, run_name
+from impact_runs import SHAPES, files_of, run_name
 
 VELOCITIES = [60, 90, 120]  # [m/s]
 AXISYMMETRIC_ELEMENTS = [6, 8, 12, 16, 24]  # cells over the rear radius
@@ -60,3 +60,13 @@ def dissipation_runs():
         for shape in SHAPES
         for change in DISSIPATION_CHANGES
     ]
+
+
+def runs_of_study(wildcards):
+    """The answers that the study `wildcards.study` reads."""
+    runs = {
+        "convergence": convergence_runs,
+        "noise": noise_runs,
+        "dissipation": dissipation_runs,
+    }
+    return files_of(runs[wildcards.study]())

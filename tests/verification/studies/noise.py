@@ -1,7 +1,5 @@
 """Scatter of the sizes between seeds of the grain orientations, by setting and shape."""
 
-import sys
-
 import matplotlib
 import numpy as np
 import pandas as pd
@@ -19,12 +17,12 @@ def setting_words(setting):
     return f"{geometry}, {elements} across the radius, {grains} grains"
 
 
-def collect(runs):
+def collect():
     """One row a setting, shape and size: mean [mm] and coefficient of variation [%]."""
     rows = []
     for setting in NOISE_SETTINGS:
         for shape in SHAPES:
-            answers = [read_run(runs, noise_name(setting, shape, seed)) for seed in NOISE_SEEDS]
+            answers = [read_run(noise_name(setting, shape, seed)) for seed in NOISE_SEEDS]
             for size in SIZES:
                 values = np.array([answer["sizes"][size] for answer in answers], dtype=float)
                 rows.append(
@@ -62,8 +60,8 @@ def draw(table, path):
     figure.savefig(path, dpi=110)
 
 
-def main(runs, table_path, figure_path):
-    table = collect(runs)
+def main(table_path, figure_path):
+    table = collect()
     table.round(4).to_csv(table_path, index=False)
     draw(table, figure_path)
     print(
@@ -76,4 +74,4 @@ def main(runs, table_path, figure_path):
 
 
 if __name__ == "__main__":
-    main(*sys.argv[1:])
+    main(*snakemake.output)  # noqa: F821

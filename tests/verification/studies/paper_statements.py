@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from impact_runs import run_name
+from impact_runs import files_of, run_name
 
 ELEMENTS, GRAINS = 16, 16
 SOLID_ELEMENTS, SOLID_GRAINS = 6, 1
@@ -102,5 +102,7 @@ def paper_cases():
     return list(dict.fromkeys((s.shape, s.velocity) for s in STATEMENTS))
 
 
-def paper_runs():
-    return [name(*case) for case in paper_cases() for name in (axisymmetric_name, solid_name)]
+def paper_runs(wildcards):
+    """The answers that the table and the figures read."""
+    names = (axisymmetric_name, solid_name)
+    return files_of(name(*case) for case in paper_cases() for name in names)

@@ -112,6 +112,23 @@ def test_table_shows_every_size(solver, quick):
         assert re.search(rf"^{name} +[-\d.naife+]+$", done.stdout, re.M), name
 
 
+def test_a_rear_that_still_moves_has_no_stop_time(solver, quick):
+    arguments = ["solver.json", "--velocity", 40, "--length-mm", 8, "--until-us", 1, "--json"]
+    done = solver("run", *arguments)
+    assert done.returncode == 0, done.stderr
+    descriptors = json.loads(done.stdout)["descriptors"]
+    assert descriptors["stop_time_us"] is None and descriptors["mean_von_mises_GPa"] is None
+
+
+def test_metal_that_loses_its_energy_balance_has_failed(solver, quick):
+    """So strong that it bounces, and its dislocations avalanche within a step."""
+    arguments = ["--velocity", 260, "--set", "rho_immobile_initial=9.6e14", "--fidelity", "coarse"]
+    arguments += ["--set", "hardening_coefficient=7.2", "--set", "immobilization_velocity=2.7"]
+    done = solver("run", *arguments)
+    assert done.returncode == 2
+    assert re.search(r"the energy balance is off by [0-9.]+ % \(at most 2 %\)", done.stderr)
+
+
 @pytest.mark.parametrize(
     "arguments, words",
     [
@@ -120,6 +137,10 @@ def test_table_shows_every_size(solver, quick):
         (["--set", "hardening_coefficient=12"], ["12", "0 to 10"]),
         (["--set", "hardening_coefficient"], ["name=value"]),
         (["--set", "strength=j3"], ["j3", '"j2"']),
+        (["--numerics", "hourglas=0.1"], ["numerics.hourglas", '"hourglass"']),
+        (["--numerics", "elements_across_radius=0"], ["elements_across_radius = 0", "1 to 200"]),
+        (["--numerics", "grains_per_point=5"], ["grains_per_point = 5", "16"]),
+        (["--snapshots", "fields", "--every-us", "0"], ["--every-us 0", "0.01 or more"]),
         (["--velocity", "-5"], ["velocity_m_s = -5", "1 to 1000"]),
         (["--diameter-mm", "-8"], ["initial_diameter_mm = -8"]),
         (["--length-mm", "0"], ["initial_length_mm = 0"]),

@@ -14,7 +14,8 @@ DRAWN = SIZES[:5]
 
 def setting_words(setting):
     geometry, elements, grains = setting
-    return f"{geometry}, {elements} across the radius, {grains} grains"
+    plural = "s" if grains > 1 else ""
+    return f"{geometry}, {elements} across the radius, {grains} grain{plural}"
 
 
 def collect():

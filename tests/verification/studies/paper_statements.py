@@ -18,7 +18,6 @@ class Statement:
     stated: str
     descriptor: str
     scale: float = 1.0
-    comment: str = ""
 
 
 STATEMENTS = [

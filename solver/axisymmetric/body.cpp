@@ -42,8 +42,8 @@ Body::Body(const impact::ImpactCase& impact_case)
       height(mesh.node_height),
       radial_velocity(radius.size(), 0.0),
       axial_velocity(radius.size(), -impact_case.velocity_m_s),
-      radial_force(radius.size(), 0.0),
-      axial_force(radius.size(), 0.0),
+      radial_impulse(radius.size(), 0.0),
+      axial_impulse(radius.size(), 0.0),
       node_mass(radius.size(), 0.0),
       equation_of_state(material::make_equation_of_state(impact_case.material)),
       parameters(impact_case.material),
@@ -62,12 +62,18 @@ Body::Body(const impact::ImpactCase& impact_case)
     viscous_pressure.assign(count, 0.0);
     plastic_rate.assign(count, 0.0);
     hourglass_stress.assign(count, {});
+    hourglass_force.assign(count, {});
+    cell_step.assign(count, 0.0);
+    last_radius.resize(count);
+    last_height.resize(count);
     for (std::size_t c = 0; c < count; ++c) {
         std::array<double, 4> r{}, z{};
         for (std::size_t a = 0; a < 4; ++a) {
             r[a] = radius[mesh.cells[c][a]];
             z[a] = height[mesh.cells[c][a]];
         }
+        last_radius[c] = r;
+        last_height[c] = z;
         volume[c] = ring_of(r, z).volume;
         cell_mass[c] = volume[c] * density;
         const std::array<double, 4> corners = corner_volumes(r, z);
@@ -90,6 +96,16 @@ double kinetic_energy(const Body& body) {
                2;
     }
     return sum;
+}
+
+double sound_speed(const Body& body, std::size_t cell) {
+    const double bulk = body.thermo[cell].bulk_modulus;
+    const double shear = material::shear_modulus(bulk, body.parameters.poisson_ratio);
+    return std::sqrt((bulk + 4.0 / 3 * shear) * body.volume[cell] / body.cell_mass[cell]);
+}
+
+double von_mises_stress(const std::array<double, 4>& s) {
+    return std::sqrt(1.5 * (s[0] * s[0] + s[1] * s[1] + s[2] * s[2] + 2 * s[3] * s[3]));
 }
 
 }  // namespace taylorcal::axisymmetric

@@ -34,17 +34,21 @@ struct Body {
     Mesh mesh;
     std::vector<double> radius, height;                   ///< of the nodes [m]
     std::vector<double> radial_velocity, axial_velocity;  ///< at mid step [m/s]
-    std::vector<double> radial_force, axial_force;        ///< [N]
+    std::vector<double> radial_impulse, axial_impulse;    ///< not yet in them [N s]
     std::vector<double> node_mass;                        ///< [kg]
 
     std::vector<double> cell_mass;  ///< [kg]
-    std::vector<double> volume;     ///< [m3]
-    std::vector<double> energy;     ///< E, hydrostatic specific energy [J/kg]
+    std::vector<double> cell_step;  ///< own time step [s]
+    /// Corners of the cells at their last update, radii and heights [m].
+    std::vector<std::array<double, 4>> last_radius, last_height;
+    std::vector<double> volume;  ///< [m3]
+    std::vector<double> energy;  ///< E, hydrostatic specific energy [J/kg]
     std::vector<material::ThermoState> thermo;
     std::vector<std::array<double, 4>> deviator;          ///< S: rr, tt, zz, rz [Pa]
     std::vector<double> viscous_pressure;                 ///< q [Pa]
     std::vector<double> plastic_rate;                     ///< equivalent [1/s]
     std::vector<std::array<double, 2>> hourglass_stress;  ///< of the r and z modes [Pa]
+    std::vector<std::array<double, 2>> hourglass_force;   ///< on the modes [N]
 
     std::unique_ptr<material::EquationOfState> equation_of_state;
     std::unique_ptr<material::Strength<float>> strength;
@@ -52,10 +56,17 @@ struct Body {
     impact::Numerics numerics;
     EnergyBalance balance;
     double time = 0;
-    double time_step = 0;
-    std::int64_t steps = 0;
+    double time_step = 0;    ///< shortest of the cells' [s]
+    std::int64_t steps = 0;  ///< of the shortest length
+    std::int64_t cell_updates = 0;
 };
 
 double kinetic_energy(const Body& body);
+
+/// Of longitudinal waves in a cell [m/s].
+double sound_speed(const Body& body, std::size_t cell);
+
+/// sqrt(3/2 S : S) of a deviator with the components rr, tt, zz, rz.
+double von_mises_stress(const std::array<double, 4>& deviator);
 
 }  // namespace taylorcal::axisymmetric

@@ -1,6 +1,8 @@
 #include "solver/axisymmetric/dynamics.hpp"
+#include "solver/axisymmetric/hourglass.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include <fmt/core.h>
 
@@ -10,11 +12,41 @@ namespace {
 using material::lane_count;
 constexpr std::size_t lanes = lane_count<float>;
 
-/// Mean velocity gradient of a cell at mid step.
+/// What a cell did during its step.
 struct Motion {
-    double rr, tt, zz, rz, zr;  ///< L_rz = dv_r/dz, L_zr = dv_z/dr [1/s]
+    double rr, tt, zz, rz,
+        zr;     ///< velocity gradient, L_rz = dv_r/dz, L_zr = dv_z/dr [1/s]
+    Ring ring;  ///< at the end
+    std::array<double, 4> radius, height;  ///< of the corners, at the end
+    std::array<double, 4> radial_velocity, axial_velocity;  ///< mean
     double divergence() const { return rr + tt + zz; }
 };
+
+Motion motion_of(const Body& body, std::size_t cell, double dt) {
+    Motion m{};
+    std::array<double, 4> mid_r{}, mid_z{};
+    for (std::size_t a = 0; a < 4; ++a) {
+        const std::size_t n = body.mesh.cells[cell][a];
+        m.radius[a] = body.radius[n];
+        m.height[a] = body.height[n];
+        m.radial_velocity[a] = (m.radius[a] - body.last_radius[cell][a]) / dt;
+        m.axial_velocity[a] = (m.height[a] - body.last_height[cell][a]) / dt;
+        mid_r[a] = (m.radius[a] + body.last_radius[cell][a]) / 2;
+        mid_z[a] = (m.height[a] + body.last_height[cell][a]) / 2;
+    }
+    const Ring mid = ring_of(mid_r, mid_z);
+    for (std::size_t a = 0; a < 4; ++a) {
+        const double vr = m.radial_velocity[a] / mid.volume;
+        const double vz = m.axial_velocity[a] / mid.volume;
+        m.rr += mid.radial[a] * vr;
+        m.tt += mid.hoop[a] * vr;
+        m.zz += mid.axial[a] * vz;
+        m.rz += mid.axial[a] * vr;
+        m.zr += mid.radial[a] * vz;
+    }
+    m.ring = ring_of(m.radius, m.height);
+    return m;
+}
 
 /// Places of a cell's grains in one block.
 void set_lanes(material::BlockInput<float>& input, std::size_t first, std::size_t count,
@@ -31,6 +63,17 @@ void set_lanes(material::BlockInput<float>& input, std::size_t first, std::size_
     }
 }
 
+/// Sum of `count` lanes (a power of two), by halves.
+double sum_of(material::Lanes<float> values, std::size_t first, std::size_t count) {
+    std::array<double, lanes> part;
+    for (std::size_t lane = 0; lane < lanes; ++lane)
+        part[lane] = static_cast<double>(values[lane]);
+    for (std::size_t half = count / 2; half > 0; half /= 2)
+        for (std::size_t lane = first; lane < first + half; ++lane)
+            part[lane] += part[lane + half];
+    return part[first];
+}
+
 /// Sums over a cell's grains in one block.
 struct GrainSum {
     std::array<double, 4> deviator{};  ///< rr, tt, zz, rz
@@ -39,14 +82,16 @@ struct GrainSum {
     void add(const material::BlockOutput<float>& output, std::size_t first,
              std::size_t count) {
         constexpr std::array<std::size_t, 4> place = {0, 1, 2, 4};
-        for (std::size_t lane = first; lane < first + count; ++lane) {
-            for (std::size_t i = 0; i < 4; ++i) {
-                deviator[i] +=
-                    static_cast<double>(output.stress_deviator[place[i]][lane]);
-            }
-            plastic_power += static_cast<double>(output.plastic_power[lane]);
-            plastic_rate += static_cast<double>(output.plastic_rate[lane]);
-        }
+        for (std::size_t i = 0; i < 4; ++i)
+            deviator[i] += sum_of(output.stress_deviator[place[i]], first, count);
+        plastic_power += sum_of(output.plastic_power, first, count);
+        plastic_rate += sum_of(output.plastic_rate, first, count);
+    }
+    void divide(std::size_t grains) {
+        const double share = 1 / static_cast<double>(grains);
+        for (double& component : deviator) component *= share;
+        plastic_power *= share;
+        plastic_rate *= share;
     }
 };
 
@@ -68,111 +113,85 @@ std::string trouble(const Body& body, std::size_t cell, const std::string& what)
                        1e6 * body.time);
 }
 
+/// Viscosity, pressure and energy of a cell after its grains have moved for `dt`, and
+/// what that adds to the energy balance.
+void close_energy(Body& body, std::size_t c, const Motion& m, const GrainSum& mean,
+                  const std::array<double, 4>& old_deviator, double dt) {
+    const std::array<double, 4> rate = {m.rr, m.tt, m.zz, m.rz + m.zr};
+    double shear_power = 0;  // S : D at mid step
+    for (std::size_t i = 0; i < 4; ++i)
+        shear_power += (old_deviator[i] + body.deviator[c][i]) / 2 * rate[i];
+    const double density = body.cell_mass[c] / body.volume[c];
+    const double old_pressure = body.thermo[c].pressure;
+    const double old_viscous = body.viscous_pressure[c];
+    const double viscous = artificial_viscosity(body, m, density, std::sqrt(m.ring.area),
+                                                body.thermo[c].bulk_modulus);
+    const double heating = (body.parameters.taylor_quinney * mean.plastic_power -
+                            (old_viscous + viscous) / 2 * m.divergence()) *
+                           dt / density;
+    // rho dE/dt = -P div v with the mean of old and new pressure.
+    const double squeeze = -m.divergence() * dt / density;
+    const double predicted = body.energy[c] + heating + old_pressure * squeeze;
+    body.thermo[c] = body.equation_of_state->at(density, predicted);
+    const double pressure = (old_pressure + body.thermo[c].pressure) / 2;
+    body.energy[c] += heating + pressure * squeeze;
+    body.viscous_pressure[c] = viscous;
+    const double cell_volume = body.volume[c] * dt;
+    body.balance.viscous -= (old_viscous + viscous) / 2 * m.divergence() * cell_volume;
+    body.balance.plastic_work += mean.plastic_power * cell_volume;
+    body.balance.internal +=
+        ((pressure + (old_viscous + viscous) / 2) * -m.divergence() + shear_power) *
+        cell_volume;
+}
+
 }  // namespace
 
-std::string advance_cells(Body& body, double dt) {
+std::string update_cells(Body& body, std::size_t first, std::size_t last) {
     const std::size_t grains = static_cast<std::size_t>(body.numerics.grains_per_point);
-    const std::size_t cells_a_block = grains < lanes ? lanes / grains : 1;
     const std::size_t blocks_a_cell = grains > lanes ? grains / lanes : 1;
     const std::size_t grains_a_block = std::min(grains, lanes);
+    const double dt = body.cell_step[first];
 
-    for (std::size_t n = 0; n < body.nodes(); ++n) {
-        body.radius[n] += body.radial_velocity[n] * dt;
-        body.height[n] += body.axial_velocity[n] * dt;
-    }
     material::BlockInput<float> input{};
     input.time_step = static_cast<float>(dt);
     material::BlockOutput<float> output;
-    std::array<Motion, lanes> motion{};
-    std::array<double, lanes> area{};
-    for (std::size_t first = 0; first < body.cells(); first += cells_a_block) {
-        const std::size_t last = std::min(first + cells_a_block, body.cells());
-        for (std::size_t c = first; c < last; ++c) {
-            const auto& corners = body.mesh.cells[c];
-            std::array<double, 4> r{}, z{}, mid_r{}, mid_z{};
-            for (std::size_t a = 0; a < 4; ++a) {
-                const std::size_t n = corners[a];
-                r[a] = body.radius[n];
-                z[a] = body.height[n];
-                mid_r[a] = r[a] - body.radial_velocity[n] * dt / 2;
-                mid_z[a] = z[a] - body.axial_velocity[n] * dt / 2;
-            }
-            const Ring mid = ring_of(mid_r, mid_z);
-            Motion& m = motion[c - first];
-            m = Motion{};
-            for (std::size_t a = 0; a < 4; ++a) {
-                const double vr = body.radial_velocity[corners[a]];
-                const double vz = body.axial_velocity[corners[a]];
-                m.rr += mid.radial[a] * vr / mid.volume;
-                m.tt += mid.hoop[a] * vr / mid.volume;
-                m.zz += mid.axial[a] * vz / mid.volume;
-                m.rz += mid.axial[a] * vr / mid.volume;
-                m.zr += mid.radial[a] * vz / mid.volume;
-            }
-            const Ring end = ring_of(r, z);
-            if (!(end.volume > 0) || !(end.area > 0)) {
-                return trouble(body, c,
-                               std::isfinite(end.volume) ? "a cell folded over"
-                                                         : "a position is not finite");
-            }
-            area[c - first] = end.area;
-            body.volume[c] = end.volume;
-            set_lanes(input, (c - first) * grains_a_block, grains_a_block, m,
-                      body.cell_mass[c] / end.volume, body.thermo[c].temperature,
-                      material::shear_modulus(body.thermo[c].bulk_modulus,
-                                              body.parameters.poisson_ratio));
+    std::array<Motion, lanes> motion;
+    for (std::size_t c = first; c < last; ++c) {
+        Motion& m = motion[c - first];
+        m = motion_of(body, c, dt);
+        if (!(m.ring.volume > 0) || !(m.ring.area > 0)) {
+            return trouble(body, c,
+                           std::isfinite(m.ring.volume) ? "a cell folded over"
+                                                        : "a position is not finite");
         }
-        std::array<GrainSum, lanes> sum{};
-        for (std::size_t b = 0; b < blocks_a_cell; ++b) {
-            body.strength->update(first / cells_a_block * blocks_a_cell + b, input,
-                                  output);
-            for (std::size_t c = first; c < last; ++c) {
-                sum[c - first].add(output, (c - first) * grains_a_block, grains_a_block);
-            }
-        }
-        for (std::size_t c = first; c < last; ++c) {
-            const Motion& m = motion[c - first];
-            const GrainSum& mean = sum[c - first];
-            const double share = 1 / static_cast<double>(grains);
-            std::array<double, 4> old = body.deviator[c];
-            double shear_power = 0;  // S : D at mid step
-            const std::array<double, 4> rate = {m.rr, m.tt, m.zz, m.rz + m.zr};
-            for (std::size_t i = 0; i < 4; ++i) {
-                body.deviator[c][i] = mean.deviator[i] * share;
-                shear_power += (old[i] + body.deviator[c][i]) / 2 * rate[i];
-            }
-            body.plastic_rate[c] = mean.plastic_rate * share;
-            const double plastic_power = mean.plastic_power * share;
-            const double density = body.cell_mass[c] / body.volume[c];
-            const double old_pressure = body.thermo[c].pressure;
-            const double old_viscous = body.viscous_pressure[c];
-            const double viscous =
-                artificial_viscosity(body, m, density, std::sqrt(area[c - first]),
-                                     body.thermo[c].bulk_modulus);
-            const double heating = (body.parameters.taylor_quinney * plastic_power -
-                                    (old_viscous + viscous) / 2 * m.divergence()) *
-                                   dt / density;
-            // rho dE/dt = -P div v with the mean of old and new pressure, by one
-            // correction.
-            const double squeeze = -m.divergence() * dt / density;
-            const double predicted = body.energy[c] + heating + old_pressure * squeeze;
-            const double guess = body.equation_of_state->at(density, predicted).pressure;
-            body.energy[c] += heating + (old_pressure + guess) / 2 * squeeze;
-            body.thermo[c] = body.equation_of_state->at(density, body.energy[c]);
-            body.viscous_pressure[c] = viscous;
-            if (!std::isfinite(body.thermo[c].pressure) || !std::isfinite(shear_power)) {
-                return trouble(body, c, "the stress is not finite");
-            }
-            const double cell_volume = body.volume[c] * dt;
-            body.balance.viscous -=
-                (old_viscous + viscous) / 2 * m.divergence() * cell_volume;
-            body.balance.plastic_work += plastic_power * cell_volume;
-            body.balance.internal +=
-                ((old_pressure + guess + old_viscous + viscous) / 2 * -m.divergence() +
-                 shear_power) *
-                cell_volume;
-        }
+        body.volume[c] = m.ring.volume;
+        body.last_radius[c] = m.radius;
+        body.last_height[c] = m.height;
+        set_lanes(input, (c - first) * grains_a_block, grains_a_block, m,
+                  body.cell_mass[c] / m.ring.volume, body.thermo[c].temperature,
+                  material::shear_modulus(body.thermo[c].bulk_modulus,
+                                          body.parameters.poisson_ratio));
     }
+    std::array<GrainSum, lanes> sum{};
+    const std::size_t first_block = first * grains / lanes;
+    for (std::size_t b = 0; b < blocks_a_cell; ++b) {
+        body.strength->update(first_block + b, input, output);
+        for (std::size_t c = first; c < last; ++c)
+            sum[c - first].add(output, (c - first) * grains_a_block, grains_a_block);
+    }
+    for (std::size_t c = first; c < last; ++c) {
+        GrainSum& mean = sum[c - first];
+        mean.divide(grains);
+        const Motion& m = motion[c - first];
+        const std::array<double, 4> old = std::exchange(body.deviator[c], mean.deviator);
+        body.plastic_rate[c] = mean.plastic_rate;
+        close_energy(body, c, m, mean, old, dt);
+        resist_hourglass(body, c, m.ring, m.radius, m.height, m.radial_velocity,
+                         m.axial_velocity);
+        if (!std::isfinite(body.thermo[c].pressure + body.deviator[c][0]))
+            return trouble(body, c, "the stress is not finite");
+    }
+    body.cell_updates += static_cast<std::int64_t>(last - first);
     return {};
 }
 

@@ -11,12 +11,8 @@ constexpr double mean_square = 1.0 / 3;
 
 }  // namespace
 
-HourglassForce hourglass_force(Body& body, std::size_t cell, const Ring& ring,
-                               const std::array<double, 4>& r,
-                               const std::array<double, 4>& z,
-                               const std::array<double, 4>& radial_velocity,
-                               const std::array<double, 4>& axial_velocity,
-                               double impedance, double shear) {
+HourglassModes hourglass_modes(const Ring& ring, const std::array<double, 4>& r,
+                               const std::array<double, 4>& z) {
     constexpr std::array<double, 4> mode = {1, -1, 1, -1};
     const double twice_area = 2 * ring.area;
     const std::array<double, 4> slope_r = {
@@ -31,36 +27,40 @@ HourglassForce hourglass_force(Body& body, std::size_t cell, const Ring& ring,
         mode_z += mode[a] * z[a];
         slopes += slope_r[a] * slope_r[a] + slope_z[a] * slope_z[a];
     }
-    const double steepness = std::sqrt(slopes / 2);  // 1/side of a square cell
-    std::array<double, 4> gamma{};
+    HourglassModes modes{};
+    modes.steepness = std::sqrt(slopes / 2);
+    for (std::size_t a = 0; a < 4; ++a)
+        modes.gamma[a] = mode[a] - mode_r * slope_r[a] - mode_z * slope_z[a];
+    return modes;
+}
+
+void resist_hourglass(Body& body, std::size_t cell, const Ring& ring,
+                      const std::array<double, 4>& r, const std::array<double, 4>& z,
+                      const std::array<double, 4>& radial_velocity,
+                      const std::array<double, 4>& axial_velocity) {
+    const HourglassModes modes = hourglass_modes(ring, r, z);
     std::array<double, 2> speed{};
     for (std::size_t a = 0; a < 4; ++a) {
-        gamma[a] = mode[a] - mode_r * slope_r[a] - mode_z * slope_z[a];
-        speed[0] += gamma[a] * radial_velocity[a];
-        speed[1] += gamma[a] * axial_velocity[a];
+        speed[0] += modes.gamma[a] * radial_velocity[a];
+        speed[1] += modes.gamma[a] * axial_velocity[a];
     }
-    const auto& s = body.deviator[cell];
-    const double von_mises =
-        std::sqrt(1.5 * (s[0] * s[0] + s[1] * s[1] + s[2] * s[2] + 2 * s[3] * s[3]));
-    const double dt = body.time_step;
+    const double dt = body.cell_step[cell];
+    const double shear = material::shear_modulus(body.thermo[cell].bulk_modulus,
+                                                 body.parameters.poisson_ratio);
+    const double impedance = body.cell_mass[cell] / ring.volume * sound_speed(body, cell);
+    const double von_mises = von_mises_stress(body.deviator[cell]);
     const double relaxation =
         von_mises > 0 ? 3 * shear * body.plastic_rate[cell] / von_mises * dt : 0.0;
-    const double scale = body.numerics.hourglass;
-    std::array<double, 2> force{};
-    HourglassForce result{};
     for (std::size_t i = 0; i < 2; ++i) {
-        const double rate = speed[i] / 2 * steepness;
+        const double rate = speed[i] / 2 * modes.steepness;
         double& stress = body.hourglass_stress[cell][i];
         stress = (stress + 2 * shear * rate * dt) / (1 + relaxation);
-        const double total = scale * stress + viscous_coefficient * impedance * speed[i];
-        force[i] = mean_square * total * ring.volume * steepness / 2;
-        result.power += force[i] * speed[i];
+        const double total =
+            body.numerics.hourglass * stress + viscous_coefficient * impedance * speed[i];
+        const double force = mean_square * total * ring.volume * modes.steepness / 2;
+        body.hourglass_force[cell][i] = force;
+        body.balance.hourglass += force * speed[i] * dt;
     }
-    for (std::size_t a = 0; a < 4; ++a) {
-        result.radial[a] = force[0] * gamma[a];
-        result.axial[a] = force[1] * gamma[a];
-    }
-    return result;
 }
 
 }  // namespace taylorcal::axisymmetric

@@ -12,7 +12,6 @@ namespace {
 // just after the impact does not count as a peak.
 constexpr double rate_average_time = 1e-6;
 constexpr double deforming_rate = 1e3;  // a cell above this plastic rate counts [1/s]
-constexpr std::int64_t steps_between_extremes = 10;
 
 }  // namespace
 
@@ -35,18 +34,16 @@ double Monitor::rear_velocity(const Body& body) {
 
 void Monitor::observe(const Body& body) {
     const std::size_t rim = body.mesh.foot.back();
-    const double share = std::min(1.0, body.time_step / rate_average_time);
+    const double share = std::min(1.0, (body.time - last_time_) / rate_average_time);
+    last_time_ = body.time;
     contact_rate_ +=
         share * (body.radial_velocity[rim] / body.radius[rim] - contact_rate_);
     peak_contact_rate_ = std::max(peak_contact_rate_, contact_rate_);
-    if (body.steps % steps_between_extremes == 0) {
-        for (const auto& thermo : body.thermo) {
-            largest_temperature_ = std::max(largest_temperature_, thermo.temperature);
-        }
-        for (const std::size_t n : body.mesh.foot) {
-            sliding_distance_ = std::max(
-                sliding_distance_, std::abs(body.radius[n] - body.mesh.node_radius[n]));
-        }
+    for (const auto& thermo : body.thermo)
+        largest_temperature_ = std::max(largest_temperature_, thermo.temperature);
+    for (const std::size_t n : body.mesh.foot) {
+        sliding_distance_ = std::max(sliding_distance_,
+                                     std::abs(body.radius[n] - body.mesh.node_radius[n]));
     }
     if (body.time >= next_record_) record(body);
     if (snapshot_interval_ > 0 && body.time >= next_snapshot_) {
@@ -66,10 +63,7 @@ void Monitor::record(const Body& body) {
     for (std::size_t c = 0; c < body.cells(); ++c) {
         temperature = std::max(temperature, body.thermo[c].temperature);
         if (body.plastic_rate[c] < deforming_rate) continue;
-        const auto& s = body.deviator[c];
-        von_mises +=
-            body.cell_mass[c] *
-            std::sqrt(1.5 * (s[0] * s[0] + s[1] * s[1] + s[2] * s[2] + 2 * s[3] * s[3]));
+        von_mises += body.cell_mass[c] * von_mises_stress(body.deviator[c]);
         mass += body.cell_mass[c];
     }
     mean_von_mises_.push_back(mass > 0 ? von_mises / mass : 0);
@@ -114,7 +108,7 @@ void Monitor::report(const Body& body, double stop_time,
         balance.initial_kinetic;
     result.steps = body.steps;
     result.points = static_cast<std::int64_t>(body.cells());
-    result.grain_updates = body.steps * result.points * body.numerics.grains_per_point;
+    result.grain_updates = body.cell_updates * body.numerics.grains_per_point;
 }
 
 }  // namespace taylorcal::axisymmetric

@@ -11,7 +11,7 @@ namespace taylorcal::axisymmetric {
 class Monitor {
   public:
     Monitor(const Body& body, const impact::ImpactCase& impact_case);
-    /// To be called after every step.
+    /// To be called after every cycle of steps.
     void observe(const Body& body);
     /// Mean axial velocity of the rear face [m/s].
     static double rear_velocity(const Body& body);
@@ -26,6 +26,7 @@ class Monitor {
     double next_snapshot_ = 0;
     std::vector<impact::Fields> snapshots_;
     double next_record_ = 0;
+    double last_time_ = 0;     ///< of the last cycle [s]
     double contact_rate_ = 0;  ///< smoothed radial rate of the contact spot [1/s]
     double peak_contact_rate_ = 0;
     double largest_temperature_ = 0;

@@ -80,10 +80,7 @@ impact::Fields fields(const Body& body) {
         out.grain_diameter_um.push_back(grain * 1e6);
         out.weakened_fraction.push_back(weakened);
         out.temperature_K.push_back(body.thermo[c].temperature);
-        const auto& s = body.deviator[c];
-        out.von_mises_GPa.push_back(
-            std::sqrt(1.5 * (s[0] * s[0] + s[1] * s[1] + s[2] * s[2] + 2 * s[3] * s[3])) /
-            1e9);
+        out.von_mises_GPa.push_back(von_mises_stress(body.deviator[c]) / 1e9);
         out.pressure_GPa.push_back(body.thermo[c].pressure / 1e9);
     }
     return out;

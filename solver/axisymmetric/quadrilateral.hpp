@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <numbers>
 
 namespace taylorcal::axisymmetric {
@@ -57,6 +59,21 @@ inline Ring ring_of(const std::array<double, 4>& r, const std::array<double, 4>&
         ring.radial[a] = volume_radial[a] - ring.hoop[a];
     }
     return ring;
+}
+
+/// Area over the longest side [m].
+inline double narrowest_width(const std::array<double, 4>& r,
+                              const std::array<double, 4>& z) {
+    double longest_square = 0;
+    for (std::size_t a = 0; a < 4; ++a) {
+        const std::size_t b = (a + 1) % 4;
+        const double dr = r[b] - r[a];
+        const double dz = z[b] - z[a];
+        longest_square = std::max(longest_square, dr * dr + dz * dz);
+    }
+    const double area =
+        ((r[2] - r[0]) * (z[3] - z[1]) - (z[2] - z[0]) * (r[3] - r[1])) / 2;
+    return area / std::sqrt(longest_square);
 }
 
 }  // namespace taylorcal::axisymmetric

@@ -52,7 +52,7 @@ void SelfContact::search(const Body& body) {
     searched_ = true;
 }
 
-void SelfContact::apply(Body& body, double interval, double time_step) {
+void SelfContact::apply(Body& body, double time_step) {
     const auto& outline = body.mesh.outline;
     double fastest = 0;
     for (const std::size_t n : outline) {
@@ -87,6 +87,7 @@ void SelfContact::apply(Body& body, double interval, double time_step) {
              share * body.axial_velocity[b]) *
                 normal_z;
         if (closing >= 0 || gap + closing * time_step >= 0) continue;
+        touching_.insert(touching_.end(), {n, a, b});
         const double wanted = gap > 0 ? -gap / time_step : 0.0;
         const double inverse_mass = 1 / body.node_mass[n] +
                                     (1 - share) * (1 - share) / body.node_mass[a] +
@@ -98,15 +99,14 @@ void SelfContact::apply(Body& body, double interval, double time_step) {
         body.axial_velocity[a] -= impulse * (1 - share) * normal_z / body.node_mass[a];
         body.radial_velocity[b] -= impulse * share * normal_r / body.node_mass[b];
         body.axial_velocity[b] -= impulse * share * normal_z / body.node_mass[b];
-        // Work of the impulse over the step in which the forces acted as well.
+        // Work of the impulse beside those of the cells.
         const double pushed =
-            interval *
-            (normal_r * (body.radial_force[n] / body.node_mass[n] -
-                         (1 - share) * body.radial_force[a] / body.node_mass[a] -
-                         share * body.radial_force[b] / body.node_mass[b]) +
-             normal_z * (body.axial_force[n] / body.node_mass[n] -
-                         (1 - share) * body.axial_force[a] / body.node_mass[a] -
-                         share * body.axial_force[b] / body.node_mass[b]));
+            normal_r * (body.radial_impulse[n] / body.node_mass[n] -
+                        (1 - share) * body.radial_impulse[a] / body.node_mass[a] -
+                        share * body.radial_impulse[b] / body.node_mass[b]) +
+            normal_z * (body.axial_impulse[n] / body.node_mass[n] -
+                        (1 - share) * body.axial_impulse[a] / body.node_mass[a] -
+                        share * body.axial_impulse[b] / body.node_mass[b]);
         body.balance.contact -= impulse * (closing - pushed + wanted) / 2;
     }
 }

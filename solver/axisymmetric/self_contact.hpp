@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace taylorcal::axisymmetric {
@@ -15,9 +16,11 @@ namespace taylorcal::axisymmetric {
 class SelfContact {
   public:
     explicit SelfContact(const Body& body);
-    /// Corrects the mid-step velocities that `accelerate` made over `interval`, before
-    /// the nodes move by `time_step`; the work goes to `balance.contact`.
-    void apply(Body& body, double interval, double time_step);
+    /// Corrects the velocities that `accelerate` made, before the nodes move by
+    /// `time_step`; the work goes to `balance.contact`.
+    void apply(Body& body, double time_step);
+    /// Nodes that met another piece of surface since the last call.
+    std::vector<std::size_t> take_touching() { return std::exchange(touching_, {}); }
 
   private:
     struct Pair {
@@ -29,6 +32,7 @@ class SelfContact {
 
     std::vector<double> reference_arc_;  ///< of the outline's nodes [m]
     std::vector<Pair> watched_;
+    std::vector<std::size_t> touching_;
     double travel_ = 0;  ///< furthest that a node may have moved since the search
     double reach_ = 0;   ///< [m]
     bool searched_ = false;

@@ -1,10 +1,9 @@
 #include "solver/impact/simulate.hpp"
 
 #include "common/errors.hpp"
-#include "solver/axisymmetric/dynamics.hpp"
+#include "solver/axisymmetric/cycle.hpp"
 #include "solver/axisymmetric/monitor.hpp"
 #include "solver/axisymmetric/profile.hpp"
-#include "solver/axisymmetric/self_contact.hpp"
 
 #include <cmath>
 #include <ctime>
@@ -15,9 +14,8 @@
 namespace taylorcal::axisymmetric {
 namespace {
 
-constexpr double step_growth = 1.05;
 constexpr int size_samples = 16;  // over one ringing period after the stop
-constexpr std::int64_t steps_between_clock_reads = 256;
+constexpr std::int64_t cycles_between_clock_reads = 64;
 
 double thread_seconds() {
     timespec now{};
@@ -53,30 +51,14 @@ class SizeMean {
     int count_ = 0;
 };
 
-/// A step forward in time. Returns what went wrong, or nothing.
-std::string take_step(Body& body, SelfContact& self_contact) {
-    const double stable = compute_forces(body);
-    const double last = body.time_step;
-    const double step = last > 0 ? std::min(stable, step_growth * last) : stable;
-    if (!(step > 0))
-        return fmt::format("the stable step vanished after {:.2f} us", 1e6 * body.time);
-    accelerate(body, (last + step) / 2, step);
-    self_contact.apply(body, (last + step) / 2, step);
-    body.time_step = step;
-    std::string trouble = advance_cells(body, step);
-    body.time += step;
-    ++body.steps;
-    return trouble;
-}
-
 /// Why a run must end before its specimen has come to rest, or nothing.
 std::string limit_reached(const Body& body, double cpu_s) {
     const impact::Numerics& numerics = body.numerics;
     if (body.time > numerics.stop_time_limit_s) {
         return fmt::format("the rear still moved after {:.0f} us", 1e6 * body.time);
     }
-    const std::int64_t updates = body.steps * static_cast<std::int64_t>(body.cells());
-    if (body.steps >= numerics.step_limit || updates >= numerics.point_update_limit) {
+    if (body.steps >= numerics.step_limit ||
+        body.cell_updates >= numerics.point_update_limit) {
         return fmt::format("{} steps were not enough ({:.1f} us reached)", body.steps,
                            1e6 * body.time);
     }
@@ -91,15 +73,19 @@ std::string limit_reached(const Body& body, double cpu_s) {
 void run(const impact::ImpactCase& impact_case, Body& body,
          impact::ImpactResult& result) {
     SelfContact self_contact(body);
+    LocalSteps steps(body);
     Monitor monitor(body, impact_case);
     const bool fixed_time = impact_case.run_until_s > 0;
+    const double end =
+        fixed_time ? impact_case.run_until_s : std::numeric_limits<double>::infinity();
     const double begun = thread_seconds();
     const double ringing = ringing_period(body, impact_case.shape.length());
     SizeMean sizes;
     int samples = 0;
+    std::int64_t cycles = 0;
     double stop_time = std::numeric_limits<double>::quiet_NaN();
     while (result.reason.empty()) {
-        result.reason = take_step(body, self_contact);
+        result.reason = take_cycle(body, steps, self_contact, end);
         if (!result.reason.empty()) {
             result.status = impact::Status::failed;
             break;
@@ -108,12 +94,12 @@ void run(const impact::ImpactCase& impact_case, Body& body,
         if (std::isnan(stop_time) && Monitor::rear_velocity(body) >= 0)
             stop_time = body.time;
         if (fixed_time) {
-            if (body.time >= impact_case.run_until_s) break;
+            if (body.time >= impact_case.run_until_s * (1 - 1e-9)) break;
         } else if (body.time >= stop_time + ringing * (samples + 0.5) / size_samples) {
             sizes.add(observe::measure(deformed_profile(body, impact_case.shape)));
             if (++samples == size_samples) break;
         }
-        if (body.steps % steps_between_clock_reads == 0) {
+        if (++cycles % cycles_between_clock_reads == 0) {
             result.reason = limit_reached(body, thread_seconds() - begun);
             result.status = impact::Status::not_stopped;
         }

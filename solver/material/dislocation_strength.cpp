@@ -92,7 +92,7 @@ template <class Real>
 void DislocationStrength<Real>::substep(Block& block, Step& step, double shortest,
                                         Slip& slip) const {
     slip = Slip{};
-    if (is_elastic(block, step)) return rest(block, step);
+    if (!block.slips && is_elastic(block, step)) return rest(block, step);
     if (block.rest_time > 0) end_rest(block);
     Outcome outcome;
     for (;;) {
@@ -349,6 +349,10 @@ void DislocationStrength<Real>::accept(const Outcome& outcome, const Step& step,
     std::copy(outcome.mobile, outcome.mobile + slip_system_count, block.mobile);
     std::copy(outcome.immobile, outcome.immobile + slip_system_count, block.immobile);
     block.annihilated_energy = outcome.annihilated_energy;
+    V fastest = {};
+    for (int d = 0; d < slip_system_count; ++d)
+        fastest = lane_max(fastest, slip.speed[d]);
+    block.slips = any_lane(fastest > 0);
 }
 
 template <class Real>

@@ -43,6 +43,7 @@ class DislocationStrength final : public Strength<Real> {
         double next_substep;             ///< that the kinetics allow [s]
         V rest_dilatation;               ///< integral of div v while at rest
         double rest_time;                ///< since no system slips [s]
+        bool slips;                      ///< some system did in the last substep
     };
 
     /// What a substep needs besides the block.

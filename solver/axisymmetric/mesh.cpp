@@ -8,26 +8,46 @@
 namespace taylorcal::axisymmetric {
 namespace {
 
-// Height / width of cells at the start. The foot of a cylinder or a head, and far more
-// the tip of a cone, is stretched along the frictionless anvil, so that its cells end
-// flat.
-constexpr double cylinder_aspect = 2;
+// Height / width of cells at the start. Long waves run up the rear with their plastic
+// front, and rows taller than its columns are wide smear it: lengths come out too short
+// by half a per cent. Heads are flattened by the impact, the more the nearer to a cone's
+// tip.
+constexpr double square_aspect = 1;
 constexpr double head_aspect = 2;
-constexpr double cone_aspect = 6;
-// At the middle of the tip the frictionless anvil thins the metal a hundredfold: up to so
-// many rows, no taller than so many radii, become one, or thin cells would set the step.
-constexpr int cone_tip_rows = 3;
-constexpr double cone_tip_radii = 3;
-// A cone keeps its columns from tip to rear; fewer than across the rear keep its tip's
-// cells, which set the stable step, from becoming needlessly small.
+constexpr double cone_tip_aspect = 6;
+constexpr double cone_tip_radii = 4;  // of the tip: above, a cone's cells are square
+// Of a cylinder, hardly anything happens beyond so many radii from the foot.
+constexpr double cylinder_square_radii = 3;
+constexpr double cylinder_growth = 0.32;  // of the aspect, a radius
+constexpr double cylinder_tallest_aspect = 3;
+// Columns of a narrow section, of those across the rear: it decides the sizes.
+constexpr double head_column_share = 3.0 / 4;
 constexpr double cone_column_share = 5.0 / 8;
 constexpr std::size_t fewest_columns = 4;
+constexpr int row_samples = 2000;
 
-/// One stretch of the profile between two stations, and how it is cut.
+/// One stretch of the profile between two stations.
 struct Section {
     double bottom, top;                ///< heights [m]
     double bottom_radius, top_radius;  ///< [m]
-    double aspect;                     ///< cell height / width
+    specimen::ShapeKind kind;          ///< of the specimen
+    bool head;                         ///< below the head-rear section
+
+    double radius_at(double height) const {
+        return std::lerp(bottom_radius, top_radius, (height - bottom) / (top - bottom));
+    }
+    double aspect_at(double height) const {
+        const double radii = (height - bottom) / bottom_radius;
+        if (kind == specimen::ShapeKind::uniform_cylinder) {
+            const double far = std::max(0.0, radii - cylinder_square_radii);
+            return std::min(square_aspect + cylinder_growth * far,
+                            cylinder_tallest_aspect);
+        }
+        if (!head) return square_aspect;
+        if (kind != specimen::ShapeKind::truncated_cone) return head_aspect;
+        const double share = std::min(1.0, radii / cone_tip_radii);
+        return std::lerp(cone_tip_aspect, square_aspect, share);
+    }
 };
 
 std::vector<Section> sections_of(const specimen::Shape& shape) {
@@ -35,60 +55,52 @@ std::vector<Section> sections_of(const specimen::Shape& shape) {
     const auto& height = shape.station_height;
     for (std::size_t i = 0; i + 1 < height.size(); ++i) {
         if (height[i + 1] <= height[i]) continue;  // a step
-        double aspect = cylinder_aspect;
-        if (shape.kind != specimen::ShapeKind::uniform_cylinder &&
-            height[i + 1] <= shape.head_length * (1 + 1e-12)) {
-            const bool cone = shape.kind == specimen::ShapeKind::truncated_cone;
-            aspect = cone ? cone_aspect : head_aspect;
-        }
+        const bool head = height[i + 1] <= shape.head_length * (1 + 1e-12);
         sections.push_back({height[i], height[i + 1], shape.station_radius[i],
-                            shape.station_radius[i + 1], aspect});
+                            shape.station_radius[i + 1], shape.kind, head});
     }
     return sections;
 }
 
-/// Row boundaries of a section: heights grow with the local radius, so that cells keep
-/// their aspect; a boundary falls on `plane` when the section holds it.
+/// Appends the row boundaries above `bottom` up to `top`: as many rows as the cells'
+/// height asks for, each with the same share of int dz/height.
+void append_rows(const Section& section, double columns, double bottom, double top,
+                 std::vector<double>& rows) {
+    const double sample = (top - bottom) / row_samples;
+    std::vector<double> sum = {0};  // rows below the end of each sample
+    for (int i = 0; i < row_samples; ++i) {
+        const double z = bottom + sample * (i + 0.5);
+        const double height = section.aspect_at(z) * section.radius_at(z) / columns;
+        sum.push_back(sum.back() + sample / height);
+    }
+    const long count = std::max(1L, std::lround(sum.back()));
+    for (long j = 1; j < count; ++j) {
+        const double wanted =
+            sum.back() * static_cast<double>(j) / static_cast<double>(count);
+        const auto above = std::upper_bound(sum.begin(), sum.end(), wanted);
+        const double share = (wanted - *(above - 1)) / (*above - *(above - 1));
+        rows.push_back(bottom +
+                       sample * (static_cast<double>(above - 1 - sum.begin()) + share));
+    }
+    rows.push_back(top);
+}
+
+/// Row boundaries of a section; one falls on `plane` when the section holds it.
 std::vector<double> rows_of(const Section& section, std::size_t columns, double plane) {
-    std::vector<double> stops = {section.bottom};
-    if (plane > section.bottom * (1 + 1e-9) + 1e-12 && plane < section.top * (1 - 1e-9)) {
-        stops.push_back(plane);
-    }
-    stops.push_back(section.top);
-    const double slope =
-        (section.top_radius - section.bottom_radius) / (section.top - section.bottom);
+    const auto across = static_cast<double>(columns);
     std::vector<double> rows = {section.bottom};
-    for (std::size_t s = 0; s + 1 < stops.size(); ++s) {
-        const double length = stops[s + 1] - stops[s];
-        const double low = section.bottom_radius + slope * (stops[s] - section.bottom);
-        const double high =
-            section.bottom_radius + slope * (stops[s + 1] - section.bottom);
-        const bool conical = std::abs(high - low) > 1e-9 * low;
-        const double mean_radius = conical ? (high - low) / std::log(high / low) : low;
-        const double cell = section.aspect * mean_radius / static_cast<double>(columns);
-        const auto count = std::max(1L, std::lround(length / cell));
-        for (long j = 1; j <= count; ++j) {
-            const double share = static_cast<double>(j) / static_cast<double>(count);
-            const double rise = conical ? low * (std::pow(high / low, share) - 1) / slope
-                                        : share * length;
-            rows.push_back(stops[s] + rise);
-        }
-        rows.back() = stops[s + 1];
-    }
-    if (section.top_radius > section.bottom_radius) {
-        const double tallest = rows[0] + cone_tip_radii * section.bottom_radius;
-        for (int joined = 1; joined < cone_tip_rows; ++joined)
-            if (rows.size() > 2 && rows[2] <= tallest) rows.erase(rows.begin() + 1);
-    }
+    if (plane > section.bottom * (1 + 1e-9) + 1e-12 && plane < section.top * (1 - 1e-9))
+        append_rows(section, across, section.bottom, plane, rows);
+    append_rows(section, across, rows.back(), section.top, rows);
     return rows;
 }
 
 /// Radii of the column boundaries in units of the section's outer radius, for sections
 /// of constant radius: the head's columns are continued by the rear's.
-std::vector<double> columns_of(double inner, double outer, int across) {
+std::vector<double> columns_of(double inner, double outer, double share, int across) {
     const double width = outer / across;
-    const auto inside = std::max<std::size_t>(
-        fewest_columns, static_cast<std::size_t>(std::lround(inner / width)));
+    const auto inside =
+        std::max(fewest_columns, static_cast<std::size_t>(std::lround(share * across)));
     std::vector<double> radii;
     for (std::size_t i = 0; i <= inside; ++i) {
         radii.push_back(inner * static_cast<double>(i) / static_cast<double>(inside));
@@ -112,10 +124,9 @@ Mesh make_mesh(const specimen::Shape& shape, int across) {
     const bool stepped = sections.size() > 1 &&
                          sections.front().bottom_radius == sections.front().top_radius;
     const double inner = stepped ? sections.front().top_radius : rear_radius;
-    const bool cone = shape.kind == specimen::ShapeKind::truncated_cone;
-    const auto columns_across =
-        cone ? static_cast<int>(std::lround(cone_column_share * across)) : across;
-    const std::vector<double> radii = columns_of(inner, rear_radius, columns_across);
+    double share = stepped ? head_column_share : 1;
+    if (shape.kind == specimen::ShapeKind::truncated_cone) share = cone_column_share;
+    const std::vector<double> radii = columns_of(inner, rear_radius, share, across);
     std::size_t inner_columns = 0;
     while (radii[inner_columns] < inner * (1 - 1e-9)) ++inner_columns;
 
@@ -135,10 +146,7 @@ Mesh make_mesh(const specimen::Shape& shape, int across) {
         const std::size_t columns = narrow ? inner_columns : radii.size() - 1;
         const std::vector<double> rows = rows_of(section, columns, shape.head_length);
         const auto scale_at = [&](double height) {
-            const double share =
-                (height - section.bottom) / (section.top - section.bottom);
-            return std::lerp(section.bottom_radius, section.top_radius, share) /
-                   radii[columns];
+            return section.radius_at(height) / radii[columns];
         };
         for (std::size_t j = 0; j + 1 < rows.size(); ++j) {
             const double low = scale_at(rows[j]);

@@ -21,9 +21,9 @@ struct Mesh {
     std::vector<std::size_t> outline;     ///< free surface, from foot rim to rear rim
 };
 
-/// Cuts the profile into about `across` columns over the rear radius and rows to match. A
-/// reduced head keeps the column width; a cone keeps the number of columns. Cells of
-/// heads and cones start up to twice as tall as wide, since the impact flattens them.
+/// Cuts the profile into `across` columns over the radius of a cylinder's rear and rows
+/// to match. A head or a cone has three quarters or five eighths as many columns of its
+/// own. Cells of heads and tips start taller than wide, since the impact flattens them.
 Mesh make_mesh(const specimen::Shape& shape, int across);
 
 }  // namespace taylorcal::axisymmetric

@@ -117,10 +117,14 @@ std::string advance_cells(Body& body, double dt) {
             }
             area[c - first] = end.area;
             body.volume[c] = end.volume;
-            set_lanes(input, (c - first) * grains_a_block, grains_a_block, m,
-                      body.cell_mass[c] / end.volume, body.thermo[c].temperature,
-                      material::shear_modulus(body.thermo[c].bulk_modulus,
-                                              body.parameters.poisson_ratio));
+            // The modulus of the step's end: one that lags behind the volume feeds the
+            // ringing of metal under large elastic strain.
+            const double density = body.cell_mass[c] / end.volume;
+            const double modulus =
+                body.equation_of_state->at(density, body.energy[c]).bulk_modulus;
+            set_lanes(input, (c - first) * grains_a_block, grains_a_block, m, density,
+                      body.thermo[c].temperature,
+                      material::shear_modulus(modulus, body.parameters.poisson_ratio));
         }
         std::array<GrainSum, lanes> sum{};
         for (std::size_t b = 0; b < blocks_a_cell; ++b) {

@@ -38,6 +38,17 @@ TEST_CASE("a run to the stop keeps its energy and shortens its specimen") {
     }
 }
 
+TEST_CASE("metal too strong to yield bounces with the energy it had") {
+    impact::ImpactCase impact_case = small_case(ShapeKind::reduced_head_4mm, 150);
+    impact_case.material.rho_immobile_initial = 1e15;
+    impact_case.material.hardening_coefficient = 10;
+    const auto result = axisymmetric::simulate(impact_case);
+    REQUIRE(result.status == impact::Status::stopped);
+    CHECK(result.descriptors.energy_error < 5e-3);
+    CHECK(result.descriptors.viscous_share < 0.02);
+    CHECK(result.history.back().rear_velocity_m_s > 75);
+}
+
 TEST_CASE("an elastic wave runs along a thin bar at sqrt(E/rho)") {
     impact::ImpactCase impact_case = small_case(ShapeKind::uniform_cylinder, 0.5);
     impact_case.shape = specimen::make_shape(ShapeKind::uniform_cylinder, 1e-3, 40e-3);

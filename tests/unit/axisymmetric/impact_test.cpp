@@ -175,3 +175,14 @@ TEST_CASE("a run that cannot end says so and keeps its sizes") {
     CHECK(result.reason.find("still moved") != std::string::npos);
     CHECK(std::isfinite(result.sizes.final_length_mm));
 }
+
+TEST_CASE("a specimen that has stopped is measured though its ringing is cut short") {
+    impact::ImpactCase impact_case = small_case(ShapeKind::reduced_head_4mm, 90);
+    const auto whole = axisymmetric::simulate(impact_case);
+    impact_case.numerics.stop_time_limit_s = 1e-6 * (whole.descriptors.stop_time_us + 3);
+    const auto cut = axisymmetric::simulate(impact_case);
+    CHECK(cut.steps < whole.steps);
+    CHECK(cut.status == impact::Status::stopped);
+    CHECK(cut.reason.empty());
+    CHECK(cut.sizes.final_length_mm == Approx(whole.sizes.final_length_mm).epsilon(2e-3));
+}

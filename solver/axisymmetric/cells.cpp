@@ -167,10 +167,14 @@ std::string update_cells(Body& body, std::size_t first, std::size_t last) {
         body.volume[c] = m.ring.volume;
         body.last_radius[c] = m.radius;
         body.last_height[c] = m.height;
-        set_lanes(input, (c - first) * grains_a_block, grains_a_block, m,
-                  body.cell_mass[c] / m.ring.volume, body.thermo[c].temperature,
-                  material::shear_modulus(body.thermo[c].bulk_modulus,
-                                          body.parameters.poisson_ratio));
+        // The modulus of the step's end: one that lags behind the volume feeds the
+        // ringing of metal under large elastic strain.
+        const double density = body.cell_mass[c] / m.ring.volume;
+        const double modulus =
+            body.equation_of_state->at(density, body.energy[c]).bulk_modulus;
+        set_lanes(input, (c - first) * grains_a_block, grains_a_block, m, density,
+                  body.thermo[c].temperature,
+                  material::shear_modulus(modulus, body.parameters.poisson_ratio));
     }
     std::array<GrainSum, lanes> sum{};
     const std::size_t first_block = first * grains / lanes;

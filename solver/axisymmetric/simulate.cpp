@@ -100,7 +100,11 @@ void run(const impact::ImpactCase& impact_case, Body& body,
             if (++samples == size_samples) break;
         }
         if (++cycles % cycles_between_clock_reads == 0) {
-            result.reason = limit_reached(body, thread_seconds() - begun);
+            const std::string limit = limit_reached(body, thread_seconds() - begun);
+            // A specimen that has stopped is measured, even when its ringing is cut
+            // short.
+            if (!limit.empty() && samples > 0) break;
+            result.reason = limit;
             result.status = impact::Status::not_stopped;
         }
     }

@@ -1,16 +1,20 @@
 """The studies' list of runs: names say what is computed, and the workflow knows them all."""
 
+import json
 import subprocess
 import sys
 from pathlib import Path
 from types import SimpleNamespace
 
+import pandas as pd
 import pytest
 
 ROOT = Path(__file__).parents[2]
 sys.path.insert(0, str(ROOT / "tests" / "verification" / "studies"))
 
-from impact_runs import arguments_of, run_name  # noqa: E402
+import sample  # noqa: E402
+from impact_runs import SHAPES, arguments_of, run_name  # noqa: E402
+from sample_runs import command_of, sample_design  # noqa: E402
 
 
 def arguments(name):
@@ -42,3 +46,58 @@ def test_the_workflow_finds_every_run(solver, target):
     command += ["--cores", "1", "--dry-run", "--quiet", "--forceall", target]
     finished = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
     assert finished.returncode == 0, finished.stderr
+
+
+def test_the_sample_takes_the_shapes_in_turn_over_the_whole_ranges():
+    columns = sample_design(64)
+    assert columns["shape"] == SHAPES * 16
+    inputs = pd.DataFrame(columns["inputs"], columns=columns["names"])
+    assert (inputs["velocity_m_s"].min(), inputs["velocity_m_s"].max()) == (10, 150)
+    density = inputs["rho_immobile_initial"]
+    assert (density.min(), density.max()) == pytest.approx((1e10, 1e15))
+    assert 2e12 < density.median() < 5e12
+
+
+def sampled_run(shape, status, reason="", energy_error=1e-4):
+    return {
+        "run_id": 7,
+        "seed": 42,
+        "shape": shape,
+        "velocity_m_s": 101.25,
+        "rho_immobile_initial": 6.3e12,
+        "hardening_coefficient": 2.8,
+        "immobilization_velocity": 0.4,
+        "status": status,
+        "reason": reason,
+        "energy_error": energy_error,
+        "cpu_s": 2.0,
+    }
+
+
+def test_the_sample_counts_what_was_lost_by_its_kind():
+    steps = ["32512 steps were not enough (119.2 us reached)"]
+    steps += ["93952 steps were not enough (78.1 us reached)"]
+    folded = "a cell folded over at r = 0.100 mm, z = 1.000 mm after 12.00 us"
+    runs = [sampled_run("truncated_cone", "not_stopped", reason, 0.5) for reason in steps]
+    runs += [sampled_run("truncated_cone", "failed", folded, 0.5)]
+    runs += [sampled_run("uniform_cylinder", "stopped", energy_error=3e-3)]
+    table = sample.summarise(pd.DataFrame(runs)).set_index("shape")
+    assert table.loc["truncated_cone", sample.STATUSES].tolist() == [0, 2, 1]
+    assert table.loc["truncated_cone", "reasons"] == (
+        "2 x n steps were not enough; 1 x a cell folded over"
+    )
+    # Of the runs that count only.
+    assert table.loc["all", "largest_energy_error"] == 3e-3
+    assert table.loc["all", "cpu_s"] == 8
+
+
+def test_a_lost_run_comes_with_the_command_that_computes_it_again(solver):
+    command = command_of(sampled_run("reduced_head_4mm", "failed"), "coarse").split()
+    assert command[:2] == ["solver", "run"]
+    words = [solver, *command[1:], "--until-us", "1", "--json"]
+    finished = subprocess.run(words, capture_output=True, text=True)
+    assert finished.returncode == 0, finished.stderr
+    question = json.loads(finished.stdout)["question"]
+    assert question["shape"] == "reduced_head_4mm"
+    assert (question["seed"], question["velocity_m_s"]) == (42, 101.25)
+    assert question["configuration"]["material"]["hardening_coefficient"] == 2.8

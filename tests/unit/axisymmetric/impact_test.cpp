@@ -45,6 +45,17 @@ TEST_CASE("a run to the stop keeps its energy and shortens its specimen") {
     }
 }
 
+TEST_CASE("metal too strong to yield bounces with the energy it had") {
+    impact::ImpactCase impact_case = small_case(ShapeKind::reduced_head_4mm, 150);
+    impact_case.material.rho_immobile_initial = 1e15;
+    impact_case.material.hardening_coefficient = 10;
+    const auto result = axisymmetric::simulate(impact_case);
+    REQUIRE(result.status == impact::Status::stopped);
+    CHECK(result.descriptors.energy_error < 5e-3);
+    CHECK(result.descriptors.viscous_share < 0.02);
+    CHECK(result.history.back().rear_velocity_m_s > 75);
+}
+
 TEST_CASE("an elastic wave runs along a thin bar at sqrt(E/rho)") {
     impact::ImpactCase impact_case = small_case(ShapeKind::uniform_cylinder, 0.5);
     impact_case.shape = specimen::make_shape(ShapeKind::uniform_cylinder, 1e-3, 40e-3);
@@ -215,4 +226,15 @@ TEST_CASE("a run that cannot end says so and keeps its sizes") {
     CHECK(result.status == impact::Status::not_stopped);
     CHECK(result.reason.find("still moved") != std::string::npos);
     CHECK(std::isfinite(result.sizes.final_length_mm));
+}
+
+TEST_CASE("a specimen that has stopped is measured though its ringing is cut short") {
+    impact::ImpactCase impact_case = small_case(ShapeKind::reduced_head_4mm, 90);
+    const auto whole = axisymmetric::simulate(impact_case);
+    impact_case.numerics.stop_time_limit_s = 1e-6 * (whole.descriptors.stop_time_us + 3);
+    const auto cut = axisymmetric::simulate(impact_case);
+    CHECK(cut.steps < whole.steps);
+    CHECK(cut.status == impact::Status::stopped);
+    CHECK(cut.reason.empty());
+    CHECK(cut.sizes.final_length_mm == Approx(whole.sizes.final_length_mm).epsilon(2e-3));
 }

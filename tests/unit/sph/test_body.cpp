@@ -101,3 +101,23 @@ TEST_CASE("an impact keeps its energy, and its momentum along the anvil", "[body
         CHECK(body.particles().position[2][slot] > -1e-12);
     }
 }
+
+TEST_CASE("every shape balances its energy with viscosity and hourglass work", "[body]") {
+    for (const specimen::ShapeKind kind :
+         {specimen::ShapeKind::uniform_cylinder, specimen::ShapeKind::reduced_head_4mm,
+          specimen::ShapeKind::reduced_head_3mm, specimen::ShapeKind::truncated_cone}) {
+        impact::ImpactCase impact_case = small_case();
+        impact_case.shape = specimen::make_shape(kind);
+        impact_case.velocity_m_s = 120;
+        impact_case.material = {};
+        sph::Body body(impact_case, material::make_strength<float>);
+        const double initial = body.total_energy();
+        while (body.time() < 30e-6) body.step();
+        const double error = std::abs(body.total_energy() - initial);
+        CAPTURE(specimen::shape_name(kind));
+        CHECK(error < 5e-3 * initial);
+        // Without them there would be no balance.
+        CHECK(body.constitutive().work().viscous > 0.5 * error);
+        CHECK(body.constitutive().work().hourglass > 3 * error);
+    }
+}

@@ -13,6 +13,8 @@ NOISE_VELOCITY = 90
 DISSIPATION_SETTINGS = [("axisymmetric", 12, 16), ("3d", 4, 1)]
 DISSIPATION_CHANGES = ["", "viscosity0.5", "hourglass0.5"]
 DISSIPATION_VELOCITY = 90
+ENERGY_SETTINGS = [("axisymmetric", 6, 8), ("3d", 4, 1)]  # coarse
+ENERGY_VELOCITY = 120
 
 
 def axisymmetric_name(elements, shape, velocity):
@@ -62,11 +64,20 @@ def dissipation_runs():
     ]
 
 
+def energy_name(setting, shape):
+    return run_name(*setting, shape, ENERGY_VELOCITY)
+
+
+def energy_runs():
+    return [energy_name(setting, shape) for setting in ENERGY_SETTINGS for shape in SHAPES]
+
+
 def runs_of_study(wildcards):
     """The answers that the study `wildcards.study` reads."""
     runs = {
         "convergence": convergence_runs,
         "noise": noise_runs,
         "dissipation": dissipation_runs,
+        "energy": energy_runs,
     }
     return files_of(runs[wildcards.study]())

@@ -3,6 +3,7 @@
 #include "solver/axisymmetric/mesh.hpp"
 #include "solver/axisymmetric/quadrilateral.hpp"
 #include "solver/impact/impact_case.hpp"
+#include "solver/impact/phase_clock.hpp"
 #include "solver/material/equation_of_state.hpp"
 #include "solver/material/strength.hpp"
 
@@ -55,6 +56,7 @@ struct Body {
     material::Parameters parameters;
     impact::Numerics numerics;
     EnergyBalance balance;
+    impact::PhaseClock clock;
     double time = 0;
     double time_step = 0;    ///< shortest of the cells' [s]
     std::int64_t steps = 0;  ///< of the shortest length

@@ -176,6 +176,7 @@ std::string update_cells(Body& body, std::size_t first, std::size_t last) {
                   body.thermo[c].temperature,
                   material::shear_modulus(modulus, body.parameters.poisson_ratio));
     }
+    body.clock.mark(impact::Phase::gradients);
     std::array<GrainSum, lanes> sum{};
     const std::size_t first_block = first * grains / lanes;
     for (std::size_t b = 0; b < blocks_a_cell; ++b) {
@@ -183,6 +184,7 @@ std::string update_cells(Body& body, std::size_t first, std::size_t last) {
         for (std::size_t c = first; c < last; ++c)
             sum[c - first].add(output, (c - first) * grains_a_block, grains_a_block);
     }
+    body.clock.mark(impact::Phase::plasticity);
     for (std::size_t c = first; c < last; ++c) {
         GrainSum& mean = sum[c - first];
         mean.divide(grains);
@@ -195,6 +197,7 @@ std::string update_cells(Body& body, std::size_t first, std::size_t last) {
         if (!std::isfinite(body.thermo[c].pressure + body.deviator[c][0]))
             return trouble(body, c, "the stress is not finite");
     }
+    body.clock.mark(impact::Phase::forces);
     body.cell_updates += static_cast<std::int64_t>(last - first);
     return {};
 }

@@ -107,6 +107,8 @@ void Monitor::report(const Body& body, double stop_time,
                  balance.contact - balance.initial_kinetic) /
         balance.initial_kinetic;
     result.steps = body.steps;
+    result.neighbours = 4;
+    result.phase_shares = body.clock.shares();
     result.points = static_cast<std::int64_t>(body.cells());
     result.grain_updates = body.cell_updates * body.numerics.grains_per_point;
 }

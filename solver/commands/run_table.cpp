@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
+#include <sys/resource.h>
 
 namespace taylorcal::commands {
 namespace {
@@ -32,6 +33,13 @@ std::string method_line(const impact::ImpactResult& result, const json& descript
                        result.steps, description["seed"].get<std::uint64_t>());
 }
 
+/// Most memory that this process has held so far [B].
+std::int64_t peak_memory() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return 1024 * std::int64_t{usage.ru_maxrss};
+}
+
 }  // namespace
 
 std::string status_name(impact::Status status) {
@@ -58,6 +66,8 @@ json describe(const Shot& shot, const Configuration& configuration, double until
 }
 
 json run_json(const impact::ImpactResult& result, const json& description) {
+    const std::vector<std::string> phases(impact::phase_names.begin(),
+                                          impact::phase_names.end());
     return {
         {"question", description},
         {"status", status_name(result.status)},
@@ -68,6 +78,10 @@ json run_json(const impact::ImpactResult& result, const json& description) {
         {"points", result.points},
         {"steps", result.steps},
         {"grain_updates", result.grain_updates},
+        {"neighbours", result.neighbours},
+        {"time_shares",
+         object_of(phases, {result.phase_shares.begin(), result.phase_shares.end()})},
+        {"memory_peak_B", peak_memory()},
         {"cpu_s", result.cpu_s}};
 }
 

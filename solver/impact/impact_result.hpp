@@ -1,5 +1,6 @@
 #pragma once
 
+#include "solver/impact/phase_clock.hpp"
 #include "solver/observe/sizes.hpp"
 
 #include <array>
@@ -74,6 +75,8 @@ struct ImpactResult {
     std::int64_t steps = 0;
     std::int64_t points = 0;  ///< particles or cells
     std::int64_t grain_updates = 0;
+    std::array<double, phase_names.size()> phase_shares{};  ///< of the time, by phase
+    double neighbours = 0;  ///< mean number of a particle, or of a cell's nodes
     double cpu_s = 0;
 };
 

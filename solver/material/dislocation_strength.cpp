@@ -26,8 +26,22 @@ constexpr int largest_iteration_count = 100;
 constexpr int first_careful_iteration = 12;
 
 template <class Real>
-inline Lanes<Real> resolve(const Real (&m)[5], const Lanes<Real> (&e)[5]) {
-    return m[0] * e[0] + m[1] * e[1] + m[2] * e[2] + m[3] * e[3] + m[4] * e[4];
+constexpr std::array<std::array<Real, 5>, slip_system_count> schmid = [] {
+    std::array<std::array<Real, 5>, slip_system_count> rounded{};
+    for (std::size_t d = 0; d < slip_system_count; ++d)
+        for (std::size_t k = 0; k < 5; ++k)
+            rounded[d][k] = static_cast<Real>(schmid_tensors[d][k]);
+    return rounded;
+}();
+
+/// M^d : e.
+template <class Real, std::size_t d>
+inline Lanes<Real> resolve(const Lanes<Real> (&e)[5]) {
+    constexpr std::array<Real, 5> m = schmid<Real>[d];
+    Lanes<Real> sum = {};
+    for (std::size_t k = 0; k < 5; ++k)
+        if (m[k] != 0) sum += m[k] * e[k];
+    return sum;
 }
 
 template <class Real>
@@ -47,11 +61,6 @@ template <class Real>
 DislocationStrength<Real>::DislocationStrength(
     const Parameters& parameters, const std::vector<Eigen::Quaterniond>& orientations)
     : parameters_(parameters) {
-    const auto& tensors = schmid_tensors();
-    for (std::size_t d = 0; d < slip_system_count; ++d) {
-        for (std::size_t k = 0; k < 5; ++k)
-            schmid_[d][k] = static_cast<Real>(tensors[d][k]);
-    }
     constexpr std::size_t lanes = lane_count<Real>;
     blocks_.resize((orientations.size() + lanes - 1) / lanes);
     for (std::size_t n = 0; n < blocks_.size(); ++n) {
@@ -65,7 +74,7 @@ DislocationStrength<Real>::DislocationStrength(
                 block.orientation[i][lane] = static_cast<Real>(matrix(i / 3, i % 3));
             }
         }
-        for (int d = 0; d < slip_system_count; ++d) {
+        for (std::size_t d = 0; d < slip_system_count; ++d) {
             block.mobile[d] += static_cast<Real>(parameters.rho_mobile_initial);
             block.immobile[d] += static_cast<Real>(parameters.rho_immobile_initial);
         }
@@ -79,7 +88,7 @@ template <class Real>
 typename DislocationStrength<Real>::V DislocationStrength<Real>::hardening(
     const Block& block, V shear_modulus) const {
     V total = block.immobile[0];
-    for (int d = 1; d < slip_system_count; ++d) total += block.immobile[d];
+    for (std::size_t d = 1; d < slip_system_count; ++d) total += block.immobile[d];
     const auto scale =
         static_cast<Real>(parameters_.hardening_coefficient * parameters_.burgers_vector);
     return static_cast<Real>(parameters_.initial_yield_stress) +
@@ -170,9 +179,8 @@ bool DislocationStrength<Real>::is_elastic(const Block& block, const Step& step)
     for (int k = 0; k < 5; ++k)
         trial[k] = block.elastic[k] + step.duration * step.rate[k];
     V largest = {};
-    for (int d = 0; d < slip_system_count; ++d) {
-        largest = lane_max(largest, lane_abs(resolve<Real>(schmid_[d], trial)));
-    }
+    for_each_slip_system(
+        [&](auto d) { largest = lane_max(largest, lane_abs(resolve<Real, d>(trial))); });
     const V threshold = hardening(block, step.shear_modulus) / 2;
     return !any_lane(2 * step.shear_modulus * largest > threshold);
 }
@@ -198,7 +206,7 @@ void DislocationStrength<Real>::end_rest(Block& block) const {
     const V least = broadcast<Real>(1);
     const V dilution =
         lane_map(-block.rest_dilatation, [](Real x) { return std::exp(x); });
-    for (int d = 0; d < slip_system_count; ++d) {
+    for (std::size_t d = 0; d < slip_system_count; ++d) {
         const V sum = lane_max(block.mobile[d] - rho_free + block.immobile[d], least);
         const V root = lane_sqrt(sum);
         const V before = lane_sqrt(block.immobile[d]);
@@ -241,9 +249,9 @@ void DislocationStrength<Real>::solve_stress(Block& block, const Step& step, Sli
         V jacobian[15] = {};  // lower triangle of I + dt 2G sum_d rhoD dV/dX b^2 M M
         V residual[5];
         for (int k = 0; k < 5; ++k) slip_strain[k] = V{};
-        for (int d = 0; d < slip_system_count; ++d) {
-            const Real(&m)[5] = schmid_[d];
-            const V resolved = two_g * resolve<Real>(m, e);
+        for_each_slip_system([&](auto d) {
+            constexpr std::array<Real, 5> m = schmid<Real>[d];
+            const V resolved = two_g * resolve<Real, d>(e);
             const V excess = lane_max(lane_abs(resolved) - threshold, V{});
             const V zeta = scale * excess;
             V steepness, z;
@@ -264,12 +272,13 @@ void DislocationStrength<Real>::solve_stress(Block& block, const Step& step, Sli
                       contraction * contraction;
             slope = excess > 0 ? slope : V{};
             const V strain = dt * (resolved < 0 ? -rate : rate);
-            for (int i = 0; i < 5; ++i) {
+            for (std::size_t i = 0; i < 5; ++i) {
+                if (m[i] == 0) continue;
                 slip_strain[i] += m[i] * strain;
-                const V row = m[i] * slope;
-                for (int j = 0; j <= i; ++j) jacobian[i * (i + 1) / 2 + j] += row * m[j];
+                for (std::size_t j = 0; j <= i; ++j)
+                    if (m[j] != 0) jacobian[i * (i + 1) / 2 + j] += (m[i] * m[j]) * slope;
             }
-        }
+        });
         for (int k = 0; k < 5; ++k) {
             jacobian[k * (k + 1) / 2 + k] += 1;
             residual[k] = trial[k] - slip_strain[k] - e[k];
@@ -308,7 +317,7 @@ void DislocationStrength<Real>::evolve_densities(const Block& block, const Step&
     const V free_density = broadcast(rho_free);
     V annihilation = {};
     outcome.growth = V{};
-    for (int d = 0; d < slip_system_count; ++d) {
+    for (std::size_t d = 0; d < slip_system_count; ++d) {
         const V mobile = block.mobile[d];
         const V immobile = block.immobile[d];
         const V capture = vi * immobile * lane_inverse_sqrt(immobile);
@@ -350,7 +359,7 @@ void DislocationStrength<Real>::accept(const Outcome& outcome, const Step& step,
     std::copy(outcome.immobile, outcome.immobile + slip_system_count, block.immobile);
     block.annihilated_energy = outcome.annihilated_energy;
     V fastest = {};
-    for (int d = 0; d < slip_system_count; ++d)
+    for (std::size_t d = 0; d < slip_system_count; ++d)
         fastest = lane_max(fastest, slip.speed[d]);
     block.slips = any_lane(fastest > 0);
 }
@@ -367,7 +376,7 @@ GrainState DislocationStrength<Real>::state(std::size_t grain) const {
         plastic += std::pow(static_cast<double>(block.plastic[k][lane]), 2);
         elastic += std::pow(static_cast<double>(block.elastic[k][lane]), 2);
     }
-    for (int d = 0; d < slip_system_count; ++d) {
+    for (std::size_t d = 0; d < slip_system_count; ++d) {
         state.mobile_density_m2 += static_cast<double>(block.mobile[d][lane]);
         state.immobile_density_m2 += static_cast<double>(block.immobile[d][lane]);
     }

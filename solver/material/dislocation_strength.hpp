@@ -83,7 +83,6 @@ class DislocationStrength final : public Strength<Real> {
     void substep(Block& block, Step& step, double shortest, Slip& slip) const;
 
     Parameters parameters_;
-    Real schmid_[slip_system_count][5];
     std::vector<Block> blocks_;
 };
 

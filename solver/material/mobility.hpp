@@ -19,9 +19,10 @@ inline Vector drag_root_step(Vector zeta, Vector z, Vector steepness) {
     return (zeta + 2 * z * z * z) * steepness;
 }
 
-/// The root itself, z = (2/sqrt 3) sinh(asinh(1.5 sqrt 3 zeta)/3); lane by lane.
+/// The root itself, z = (2/sqrt 3) sinh(asinh(1.5 sqrt 3 zeta)/3); lane by lane, and kept
+/// out of the loops that seldom need it.
 template <class Vector>
-inline Vector drag_root(Vector zeta) {
+[[gnu::noinline, gnu::cold]] Vector drag_root(Vector zeta) {
     return lane_map(zeta, [](auto x) {
         using Real = decltype(x);
         constexpr double root_3 = std::numbers::sqrt3;

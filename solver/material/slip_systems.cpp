@@ -25,28 +25,4 @@ Eigen::Matrix3d tensor_from_deviator(const Deviator& deviator) {
     return tensor;
 }
 
-const std::array<Deviator, slip_system_count>& schmid_tensors() {
-    static const std::array<Deviator, slip_system_count> tensors = [] {
-        std::array<Deviator, slip_system_count> made{};
-        const std::array<Eigen::Vector3d, 4> planes = {
-            Eigen::Vector3d{1, 1, 1}, Eigen::Vector3d{-1, 1, 1},
-            Eigen::Vector3d{1, -1, 1}, Eigen::Vector3d{1, 1, -1}};
-        const std::array<Eigen::Vector3d, 6> directions = {
-            Eigen::Vector3d{0, 1, -1}, Eigen::Vector3d{1, 0, -1},
-            Eigen::Vector3d{1, -1, 0}, Eigen::Vector3d{0, 1, 1},
-            Eigen::Vector3d{1, 0, 1},  Eigen::Vector3d{1, 1, 0}};
-        std::size_t system = 0;
-        for (const auto& plane : planes) {
-            for (const auto& direction : directions) {
-                if (plane.dot(direction) != 0) continue;
-                const Eigen::Matrix3d outer =
-                    direction.normalized() * plane.normalized().transpose();
-                made[system++] = deviator_from_tensor(0.5 * (outer + outer.transpose()));
-            }
-        }
-        return made;
-    }();
-    return tensors;
-}
-
 }  // namespace taylorcal::material

@@ -1,12 +1,16 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <numbers>
+#include <type_traits>
+#include <utility>
 
 #include <Eigen/Core>
 
 namespace taylorcal::material {
 
-inline constexpr int slip_system_count = 12;
+inline constexpr std::size_t slip_system_count = 12;
 
 /// Components of a symmetric deviator in the orthonormal basis
 /// {(xx-yy)/sqrt2, (2zz-xx-yy)/sqrt6, sqrt2 xy, sqrt2 xz, sqrt2 yz}, so that A : B = a .
@@ -17,7 +21,35 @@ Deviator deviator_from_tensor(const Eigen::Matrix3d& tensor);
 Eigen::Matrix3d tensor_from_deviator(const Deviator& deviator);
 
 /// Schmid tensors M^d = sym(bhat x n) of the twelve fcc systems {111}<110> in the crystal
-/// frame, as deviators; |M^d|^2 = 1/2 (Eq. 8).
-const std::array<Deviator, slip_system_count>& schmid_tensors();
+/// frame, as deviators; |M^d|^2 = 1/2 (Eq. 8). Known to the compiler, which leaves out
+/// the third of the components that vanish.
+inline constexpr std::array<Deviator, slip_system_count> schmid_tensors = [] {
+    constexpr int planes[4][3] = {{1, 1, 1}, {-1, 1, 1}, {1, -1, 1}, {1, 1, -1}};
+    constexpr int directions[6][3] = {{0, 1, -1}, {1, 0, -1}, {1, -1, 0},
+                                      {0, 1, 1},  {1, 0, 1},  {1, 1, 0}};
+    std::array<Deviator, slip_system_count> made{};
+    std::size_t system = 0;
+    for (const auto& n : planes) {
+        for (const auto& b : directions) {
+            if (n[0] * b[0] + n[1] * b[1] + n[2] * b[2] != 0) continue;
+            constexpr double root12 = 2 * std::numbers::sqrt3;
+            const int xx = b[0] * n[0], yy = b[1] * n[1], zz = b[2] * n[2];
+            made[system++] = {(xx - yy) / root12, (2 * zz - xx - yy) / 6.0,
+                              (b[0] * n[1] + b[1] * n[0]) / root12,
+                              (b[0] * n[2] + b[2] * n[0]) / root12,
+                              (b[1] * n[2] + b[2] * n[1]) / root12};
+        }
+    }
+    return made;
+}();
+
+/// Calls `function` with each system's number as a compile-time constant.
+template <class Function>
+inline void for_each_slip_system(const Function& function) {
+    [&]<std::size_t... d>(std::index_sequence<d...>) {
+        (function(std::integral_constant<std::size_t, d>{}), ...);
+    }
+    (std::make_index_sequence<slip_system_count>{});
+}
 
 }  // namespace taylorcal::material

@@ -7,7 +7,7 @@ using namespace taylorcal::material;
 
 TEST_CASE(
     "the twelve Schmid tensors are unit systems on distinct planes and directions") {
-    const auto& systems = schmid_tensors();
+    const auto& systems = schmid_tensors;
     for (const Deviator& m : systems) {
         double square = 0;
         for (const double component : m) square += component * component;
@@ -29,7 +29,7 @@ TEST_CASE("together they are cubic: sum of M M is diagonal in the deviator basis
     // For the fcc systems sum_d M^d x M^d has the value 4 M_xx^2-type on the two diagonal
     // components and another on the three shears, and nothing between them.
     double sum[5][5] = {};
-    for (const Deviator& m : schmid_tensors()) {
+    for (const Deviator& m : schmid_tensors) {
         for (std::size_t i = 0; i < 5; ++i) {
             for (std::size_t j = 0; j < 5; ++j) sum[i][j] += m[i] * m[j];
         }

@@ -110,6 +110,7 @@ void Monitor::report(const Body& body, double stop_time,
     result.neighbours = 4;
     result.phase_shares = body.clock.shares();
     result.points = static_cast<std::int64_t>(body.cells());
+    result.grains_per_point = body.numerics.grains_per_point;
     result.grain_updates = body.cell_updates * body.numerics.grains_per_point;
 }
 

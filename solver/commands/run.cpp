@@ -15,6 +15,7 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
+#include <sys/resource.h>
 
 namespace taylorcal::commands {
 namespace {
@@ -78,6 +79,13 @@ Configuration configuration_of(const RunOptions& options) {
     return read_configuration(JsonReader(document, "command line"));
 }
 
+/// Most memory that this process has held so far [B].
+std::int64_t peak_memory() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return 1024 * std::int64_t{usage.ru_maxrss};
+}
+
 void run(RunOptions options) {
     const Configuration configuration = configuration_of(options);
     options.shot.shape = specimen::shape_from_name(options.shape);
@@ -93,14 +101,18 @@ void run(RunOptions options) {
     if (!options.snapshots.empty())
         impact_case.snapshot_interval_s = 1e-6 * options.snapshot_interval_us;
 
+    const std::int64_t memory_before = peak_memory();
     const impact::ImpactResult result = impact::simulate(impact_case);
+    const std::int64_t memory = peak_memory() - memory_before;
 
     const nlohmann::json description =
         describe(options.shot, configuration, options.until_us);
     if (!options.out.empty()) write_run_file(options.out, result, description);
     if (!options.snapshots.empty()) write_vtk_series(options.snapshots, result.snapshots);
-    fmt::print("{}", options.json ? run_json(result, description).dump(2) + "\n"
-                                  : run_table(result, description));
+    nlohmann::json answer = run_json(result, description);
+    answer["memory_B"] = memory;
+    fmt::print("{}",
+               options.json ? answer.dump(2) + "\n" : run_table(result, description));
     if (result.status == impact::Status::failed)
         throw NumericalError("the run failed: " + result.reason);
     if (result.status == impact::Status::not_stopped)

@@ -2,8 +2,6 @@
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
-#include <sys/resource.h>
-
 namespace taylorcal::commands {
 namespace {
 
@@ -31,13 +29,6 @@ std::string method_line(const impact::ImpactResult& result, const json& descript
                        configuration["geometry"].get<std::string>(),
                        configuration["fidelity"].get<std::string>(), result.points,
                        result.steps, description["seed"].get<std::uint64_t>());
-}
-
-/// Most memory that this process has held so far [B].
-std::int64_t peak_memory() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return 1024 * std::int64_t{usage.ru_maxrss};
 }
 
 }  // namespace
@@ -76,12 +67,12 @@ json run_json(const impact::ImpactResult& result, const json& description) {
         {"descriptors", object_of(impact::descriptor_names(),
                                   impact::descriptor_values(result.descriptors))},
         {"points", result.points},
+        {"grains_per_point", result.grains_per_point},
         {"steps", result.steps},
         {"grain_updates", result.grain_updates},
         {"neighbours", result.neighbours},
         {"time_shares",
          object_of(phases, {result.phase_shares.begin(), result.phase_shares.end()})},
-        {"memory_peak_B", peak_memory()},
         {"cpu_s", result.cpu_s}};
 }
 

@@ -72,10 +72,10 @@ struct ImpactResult {
     std::vector<HistoryRecord> history;
     Fields fields;                  ///< at the end
     std::vector<Fields> snapshots;  ///< on the way, and at the end; if asked for
-    std::int64_t steps = 0;
-    std::int64_t points = 0;  ///< particles or cells
+    std::int64_t steps = 0;         ///< the finest, where points take their own
+    std::int64_t points = 0;        ///< particles or cells
     int grains_per_point = 0;
-    std::int64_t grain_updates = 0;
+    std::int64_t grain_updates = 0;  ///< made, of single grains by a step
     std::array<double, phase_names.size()> phase_shares{};  ///< of the time, by phase
     double neighbours = 0;  ///< mean number of a particle, or of a cell's nodes
     double cpu_s = 0;

@@ -11,9 +11,9 @@ class Anvil {
   public:
     Anvil(const Packing& packing, double density);
 
-    /// Corrects the velocities with which particles are about to move for `dt`, after the
-    /// accelerations have acted on them for `kick`. [s]
-    void stop(Particles& particles, double kick, double dt);
+    /// Corrects the velocities with which a block is about to move for `dt`, for which
+    /// the accelerations have acted on it. [s]
+    void stop(Particles& particles, std::size_t block, double dt);
 
     double impulse() const { return impulse_; }  ///< given to the specimen, upwards [N s]
     double lost_energy() const { return lost_energy_; }  ///< kinetic [J]

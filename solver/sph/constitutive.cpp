@@ -92,7 +92,7 @@ Constitutive::Constitutive(const impact::ImpactCase& impact_case, const Packing&
       quadratic_viscosity_(static_cast<float>(impact_case.numerics.quadratic_viscosity)) {
 }
 
-StepReport Constitutive::initialise(Particles& particles) const {
+double Constitutive::initialise(Particles& particles) const {
     for (const std::size_t block : packing_.active) {
         for (std::size_t k = 0; k < block_size; ++k) {
             particles.energy[block * block_size + k] = rest_.energy;
@@ -104,7 +104,7 @@ StepReport Constitutive::initialise(Particles& particles) const {
         particles.density[block] = material::broadcast(static_cast<float>(rest_.density));
     }
     const double modulus = rest_.state.bulk_modulus * (1 + 4.0 / 3 * shear_ratio_);
-    return {packing_.edge / std::sqrt(modulus / rest_.density), false};
+    return packing_.edge / std::sqrt(modulus / rest_.density);
 }
 
 Constitutive::Response Constitutive::strength_response(std::size_t index,
@@ -155,75 +155,70 @@ void Constitutive::close_energy(Particles& particles, std::size_t block,
     particles.density[block] = density;
 }
 
-StepReport Constitutive::update(Particles& particles, const Reference& reference,
-                                double dt) {
+double Constitutive::update(Particles& particles, const Reference& reference,
+                            std::size_t index, double dt) {
     const auto step = static_cast<float>(dt);
     const auto rho0 = static_cast<float>(rest_.density);
     const auto edge = static_cast<float>(packing_.edge);
     const auto stiffness = static_cast<float>(1 + 4.0 / 3 * shear_ratio_);
-    Vector least_time = material::broadcast(1.0f);
-    for (std::size_t index = 0; index < packing_.active.size(); ++index) {
-        const std::size_t block = packing_.active[index];
-        Vector end[9], middle[9], rate[9], gradient[9], inverse[9];
-        for (std::size_t c = 0; c < 9; ++c) {
-            rate[c] = particles.rate[c][block];
-            double* f = particles.deformation[c].data() + block * block_size;
-            for (std::size_t k = 0; k < block_size; ++k) {
-                f[k] += dt * static_cast<double>(rate[c][k]);
-            }
-            end[c] = rounded(f);
-            middle[c] = end[c] - 0.5f * step * rate[c];
+    const std::size_t block = packing_.active[index];
+    Vector end[9], middle[9], rate[9], gradient[9], inverse[9];
+    for (std::size_t c = 0; c < 9; ++c) {
+        rate[c] = particles.rate[c][block];
+        double* f = particles.deformation[c].data() + block * block_size;
+        for (std::size_t k = 0; k < block_size; ++k) {
+            f[k] += dt * static_cast<double>(rate[c][k]);
         }
-        const Vector middle_ratio = invert(middle, inverse);
-        multiply(rate, inverse, gradient);
-        const Vector ratio = invert(end, inverse);
-        if (is_tangled(ratio, rate, step)) return {0, true};
-        const Vector density = rho0 * material::lane_inverse(ratio);
-        const Vector dilatation = gradient[0] + gradient[4] + gradient[8];
-
-        const Response response =
-            strength_response(index, particles, gradient, density, dt);
-        const Vector spacing = edge * least_stretch(inverse);
-        const Vector sound_speed = material::lane_sqrt(
-            stiffness * particles.bulk_modulus[block] * material::lane_inverse(density));
-        const Vector closing = material::lane_max(-dilatation, Vector{});
-        const Vector viscosity =
-            density * spacing * closing *
-            (quadratic_viscosity_ * spacing * closing + linear_viscosity_ * sound_speed);
-
-        const Vector hourglass = particles.hourglass_heating[block];
-        const Vector heating = taylor_quinney_ * response.plastic_power +
-                               viscosity * closing +
-                               hourglass * material::lane_inverse(middle_ratio);
-        close_energy(particles, block, dilatation, density, heating, dt);
-
-        Vector mean[6];
-        for (std::size_t c = 0; c < 6; ++c) {
-            mean[c] = 0.5f * (particles.stress_deviator[c][block] + response.deviator[c]);
-            particles.stress_deviator[c][block] = response.deviator[c];
-        }
-        Vector stress[9];
-        first_piola_kirchhoff(response.deviator, particles.pressure[block] + viscosity,
-                              ratio, inverse, stress);
-        reference.store_pull(particles, block, stress);
-
-        const Vector volume = reference.volume()[block];
-        const Vector volume_step = volume * middle_ratio * step;
-        const double plastic = sum(volume_step * response.plastic_power);
-        work_.plastic += plastic;
-        work_.stored_in_shear += sum(volume_step * power(mean, gradient)) -
-                                 static_cast<double>(taylor_quinney_) * plastic;
-        work_.viscous += sum(volume_step * viscosity * closing);
-        work_.hourglass += sum(volume * step * hourglass);
-
-        const Vector time = spacing * material::lane_inverse(sound_speed);
-        least_time = time < least_time ? time : least_time;
+        end[c] = rounded(f);
+        middle[c] = end[c] - 0.5f * step * rate[c];
     }
-    double sound_time = INFINITY;
+    const Vector middle_ratio = invert(middle, inverse);
+    multiply(rate, inverse, gradient);
+    const Vector ratio = invert(end, inverse);
+    if (is_tangled(ratio, rate, step)) return 0;
+    const Vector density = rho0 * material::lane_inverse(ratio);
+    const Vector dilatation = gradient[0] + gradient[4] + gradient[8];
+
+    const Response response = strength_response(index, particles, gradient, density, dt);
+    const Vector spacing = edge * least_stretch(inverse);
+    const Vector sound_speed = material::lane_sqrt(
+        stiffness * particles.bulk_modulus[block] * material::lane_inverse(density));
+    const Vector closing = material::lane_max(-dilatation, Vector{});
+    const Vector viscosity =
+        density * spacing * closing *
+        (quadratic_viscosity_ * spacing * closing + linear_viscosity_ * sound_speed);
+
+    const Vector hourglass = particles.hourglass_heating[block];
+    const Vector heating = taylor_quinney_ * response.plastic_power +
+                           viscosity * closing +
+                           hourglass * material::lane_inverse(middle_ratio);
+    close_energy(particles, block, dilatation, density, heating, dt);
+
+    Vector mean[6];
+    for (std::size_t c = 0; c < 6; ++c) {
+        mean[c] = 0.5f * (particles.stress_deviator[c][block] + response.deviator[c]);
+        particles.stress_deviator[c][block] = response.deviator[c];
+    }
+    Vector stress[9];
+    first_piola_kirchhoff(response.deviator, particles.pressure[block] + viscosity, ratio,
+                          inverse, stress);
+    reference.store_pull(particles, block, stress);
+
+    const Vector volume = reference.volume()[block];
+    const Vector volume_step = volume * middle_ratio * step;
+    const double plastic = sum(volume_step * response.plastic_power);
+    work_.plastic += plastic;
+    work_.stored_in_shear += sum(volume_step * power(mean, gradient)) -
+                             static_cast<double>(taylor_quinney_) * plastic;
+    work_.viscous += sum(volume_step * viscosity * closing);
+    work_.hourglass += sum(volume * step * hourglass);
+
+    const Vector time = spacing * material::lane_inverse(sound_speed);
+    double least_time = INFINITY;
     for (std::size_t k = 0; k < block_size; ++k) {
-        sound_time = std::min(sound_time, static_cast<double>(least_time[k]));
+        least_time = std::min(least_time, static_cast<double>(time[k]));
     }
-    return {sound_time, false};
+    return least_time;
 }
 
 material::GrainState Constitutive::state(std::size_t index, std::size_t lane) const {

@@ -25,14 +25,6 @@ struct Rest {
 };
 Rest rest_state(const material::EquationOfState& equation_of_state, double temperature);
 
-/// What a step found.
-struct StepReport {
-    double sound_time = 0;  ///< least squeezed edge / sound speed [s]
-    /// A particle's volume or its strain within the step is out of all reason, or not a
-    /// number; the step was not completed.
-    bool tangled = false;
-};
-
 /// From the rates of deformation to stresses: deformation, density, strength, energy,
 /// equation of state, artificial viscosity, and first Piola-Kirchhoff stress.
 class Constitutive {
@@ -41,10 +33,14 @@ class Constitutive {
                  const material::EquationOfState& equation_of_state, const Rest& rest,
                  std::unique_ptr<material::Strength<float>> strength);
 
-    /// Puts every particle into the undeformed state.
-    StepReport initialise(Particles& particles) const;
-    /// Advances all particles by `dt` at their rates dF/dt.
-    StepReport update(Particles& particles, const Reference& reference, double dt);
+    /// Puts every particle into the undeformed state; returns an edge's sound time [s].
+    double initialise(Particles& particles) const;
+    /// Advances a block by `dt` at its rates dF/dt; `index` counts within
+    /// Packing::active. Returns the least sound time over a squeezed edge [s], or zero
+    /// when the block is tangled and was not advanced: a particle's volume or its strain
+    /// within the step is out of all reason, or not a number.
+    double update(Particles& particles, const Reference& reference, std::size_t index,
+                  double dt);
 
     const Work& work() const { return work_; }
     /// Mean state of a particle's grains; `index` counts within Packing::active.

@@ -36,12 +36,15 @@ std::vector<Eigen::Quaterniond> random_orientations(std::uint64_t seed,
     constexpr std::uint64_t stream = 0x73706867;
     const RandomStream random(seed, stream);
     const std::vector<Eigen::Quaterniond> set = material::isotropic_set(grains);
-    std::map<std::pair<int, int>, std::size_t> first_slot;
+    // Numbers of the sites: column by column, whatever the slots.
+    const std::size_t stride = (packing.blocks_per_column - 1) * block_size;
+    std::map<std::pair<int, int>, std::size_t> first_number;
     std::vector<const Column*> column_of(packing.slots / block_size, nullptr);
     for (const Column& column : packing.columns) {
-        first_slot[{column.ix, column.iy}] = column.first_slot;
+        const std::size_t number = block_size + first_number.size() * stride;
+        first_number[{column.ix, column.iy}] = number;
         for (std::size_t b = 0; b < packing.blocks_per_column; ++b) {
-            column_of[column.first_slot / block_size + b] = &column;
+            column_of[column.first_block + b] = &column;
         }
     }
     std::vector<Eigen::Quaterniond> orientations;
@@ -50,7 +53,7 @@ std::vector<Eigen::Quaterniond> random_orientations(std::uint64_t seed,
         const Column& column = *column_of[block];
         const QuarterTurns origin = from_first_quadrant(column.ix, column.iy);
         const std::size_t along = block * block_size - column.first_slot;
-        const std::size_t first = first_slot.at(origin.site) + along;
+        const std::size_t first = first_number.at(origin.site) + along;
         const Eigen::Quaterniond turn(Eigen::AngleAxisd(
             origin.turns * std::numbers::pi / 2, Eigen::Vector3d::UnitZ()));
         for (std::size_t g = 0; g < grains; ++g) {

@@ -34,8 +34,7 @@ Outline::Outline(const specimen::Shape& shape, const Packing& packing)
       initial_length_(shape.length()),
       initial_rear_radius_(shape.rear_radius()) {
     for (std::size_t c = 0; c < packing.columns.size(); ++c) {
-        const std::size_t sites = packing.blocks_per_column * block_size;
-        for (std::size_t k = 0; k < sites; ++k) {
+        for (std::size_t k = 0; k < packing.sites_per_column; ++k) {
             const std::size_t slot = packing.columns[c].first_slot + k;
             if (packing.volume[slot] > 0) {
                 layer_slots_[packing.layer_of(c, k)].push_back(slot);

@@ -141,14 +141,23 @@ Packing pack(const specimen::Shape& shape, double edge) {
         for (const auto& [site, patch] : tiles.back()) column_of[site] = 0;
     }
 
-    const std::size_t sites = (packing.layers.size() + 1) / 2;
-    packing.blocks_per_column = (sites + block_size - 1) / block_size;
-    const std::size_t stride = (packing.blocks_per_column + 1) * block_size;
+    const auto occupied = [&](const Site& site, std::size_t k) {
+        return tiles[2 * k + static_cast<std::size_t>(site.first & 1)].contains(site);
+    };
+    // Blocks for all sites from anywhere within the first one, and an empty one.
+    packing.sites_per_column = (packing.layers.size() + 1) / 2;
+    packing.blocks_per_column =
+        (packing.sites_per_column + block_size - 1) / block_size + 2;
     for (auto& [site, index] : column_of) {
         index = packing.columns.size();
-        packing.columns.push_back({site.first, site.second, block_size + index * stride});
+        std::size_t lowest = 0;
+        while (!occupied(site, lowest)) ++lowest;
+        const std::size_t block = 1 + index * packing.blocks_per_column;
+        const std::size_t shift = (block_size - lowest % block_size) % block_size;
+        packing.columns.push_back(
+            {site.first, site.second, block * block_size + shift, block});
     }
-    packing.slots = block_size + packing.columns.size() * stride;
+    packing.slots = (1 + packing.columns.size() * packing.blocks_per_column) * block_size;
     for (auto* field : {&packing.x, &packing.y, &packing.z, &packing.volume}) {
         field->assign(packing.slots, 0.0);
     }

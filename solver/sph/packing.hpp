@@ -25,24 +25,27 @@ struct Layer {
 struct Column {
     int ix;
     int iy;
-    std::size_t first_slot;
+    std::size_t first_slot;   ///< of layer 0 or 1
+    std::size_t first_block;  ///< that may hold a site of it
 
     int parity() const { return ix & 1; }
 };
 
 /// Particles on a bcc lattice clipped to a profile of revolution that stands on z = 0.
 ///
-/// Sites are stored column by column in blocks of 16, with an empty block before, between
+/// Sites are stored column by column in blocks of 16, with empty blocks before, between
 /// and after the columns: a neighbour of every site of a block is then a contiguous run
 /// of memory at a fixed distance, and needs no index. Sites outside the specimen have no
-/// volume. Each layer's volume is that of the profile: a site owns the part of its square
+/// volume; a column's lowest particle begins a block, so that few blocks are half empty.
+/// Each layer's volume is that of the profile: a site owns the part of its square
 /// tile inside the outline, sites that would own little give it to their neighbours, and
 /// the particle sits at the centre of what it owns.
 struct Packing {
     double edge = 0;  ///< of the lattice cube [m]
     std::vector<Layer> layers;
     std::vector<Column> columns;
-    std::size_t blocks_per_column = 0;
+    std::size_t sites_per_column = 0;
+    std::size_t blocks_per_column = 0;  ///< with the empty ones after it
     std::size_t slots = 0;
     std::vector<double> x, y, z;      ///< reference positions, by slot [m]
     std::vector<double> volume;       ///< zero where there is no particle [m3]

@@ -13,6 +13,8 @@ Particles::Particles(std::size_t slots) {
         for (Field& field : fields) field = Field(slots);
     };
     allocate(speed);
+    for (auto& means : mean_speed) allocate(means);
+    allocate(renewed_speed);
     allocate(acceleration);
     allocate(rate);
     allocate(pull);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "solver/sph/field.hpp"
+#include "solver/sph/schedule.hpp"
 
 #include <array>
 #include <vector>
@@ -18,9 +18,12 @@ struct Particles {
     std::array<std::vector<double>, 9> deformation;  ///< F, row-major
     std::vector<double> energy;                      ///< hydrostatic E [J/kg]
 
-    std::array<Field, 3> speed;         ///< the velocity, rounded [m/s]
-    std::array<Field, 3> acceleration;  ///< [m/s2]
-    std::array<Field, 9> rate;          ///< dF/dt at mid step [1/s]
+    std::array<Field, 3> speed;  ///< the velocity, rounded [m/s]
+    /// Its means over the steps of the levels from 1 on, where they are asked for [m/s].
+    std::array<std::array<Field, 3>, Schedule::highest_level> mean_speed;
+    std::array<Field, 3> renewed_speed;  ///< its mean over the last renewal [m/s]
+    std::array<Field, 3> acceleration;   ///< [m/s2]
+    std::array<Field, 9> rate;           ///< dF/dt at mid step [1/s]
     std::array<Field, 9> pull;  ///< Q: corrected first Piola-Kirchhoff stress [Pa]
     Field hourglass_heating;    ///< per reference volume [W/m3]
     std::array<Field, 6> stress_deviator;  ///< S: xx yy zz xy xz yz [Pa]

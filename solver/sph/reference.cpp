@@ -1,9 +1,11 @@
+// (remove this line).
 #include "solver/sph/reference.hpp"
 
 #include "solver/sph/kernel.hpp"
 
 #include <cmath>
 #include <map>
+#include <set>
 
 #include <Eigen/Dense>
 
@@ -46,7 +48,7 @@ void Reference::find_neighbours(const Packing& packing) {
     for (std::size_t c = 0; c < packing.columns.size(); ++c) {
         column_at[{packing.columns[c].ix, packing.columns[c].iy}] = c;
         for (std::size_t b = 0; b < packing.blocks_per_column; ++b) {
-            column_of_block_[packing.columns[c].first_slot / block_size + b] = c;
+            column_of_block_[packing.columns[c].first_block + b] = c;
         }
     }
     for (const Column& column : packing.columns) {
@@ -78,6 +80,25 @@ void Reference::find_neighbours(const Packing& packing) {
             }
         }
     }
+}
+
+double Reference::mean_neighbours() const {
+    std::size_t particles = 0;
+    std::size_t pairs = 0;
+    for (const std::size_t block : active_) {
+        for (std::size_t k = 0; k < block_size; ++k) {
+            const std::size_t slot = block * block_size + k;
+            if (volume_.lanes()[slot] <= 0) continue;
+            ++particles;
+            for (const NeighbourColumn& n : neighbours_[column_of_block_[block]]) {
+                for (std::size_t e = 0; e < n.count; ++e) {
+                    const std::size_t j = slot + static_cast<std::size_t>(n.offset) + e;
+                    if (n.steepness[e] > 0 && volume_.lanes()[j] > 0) ++pairs;
+                }
+            }
+        }
+    }
+    return static_cast<double>(pairs) / static_cast<double>(particles);
 }
 
 void Reference::measure_moments(const Packing& packing) {
@@ -130,94 +151,203 @@ inline void times_symmetric(const Vector (&a)[9], const std::array<Field, 6>& k,
 
 }  // namespace
 
-void Reference::velocity_gradient(Particles& particles) const {
+void Reference::velocity_gradient(Particles& particles, std::size_t block,
+                                  const std::array<Field, 3>& velocity) const {
     const float* volume = volume_.lanes();
     const float* place[3];
     const float* speed[3];
     for (std::size_t c = 0; c < 3; ++c) {
         place[c] = place_[c].lanes();
-        speed[c] = particles.speed[c].lanes();
+        speed[c] = velocity[c].lanes();
     }
-    for (const std::size_t block : active_) {
-        const std::size_t slot = block * block_size;
-        const Vector x0[3] = {place_[0][block], place_[1][block], place_[2][block]};
-        const Vector v0[3] = {particles.speed[0][block], particles.speed[1][block],
-                              particles.speed[2][block]};
-        Vector sum[9] = {};
-        Vector squares{};
-        for (const NeighbourColumn& n : neighbours_[column_of_block_[block]]) {
-            const std::size_t first = slot + static_cast<std::size_t>(n.offset);
-            for (std::size_t e = 0; e < n.count; ++e) {
-                const std::size_t j = first + e;
-                const Vector w = n.steepness[e] * load(volume + j);
-                const Vector x = load(place[0] + j) - x0[0];
-                const Vector y = load(place[1] + j) - x0[1];
-                const Vector z = load(place[2] + j) - x0[2];
-                for (std::size_t r = 0; r < 3; ++r) {
-                    const Vector v = load(speed[r] + j) - v0[r];
-                    const Vector wv = w * v;
-                    sum[3 * r] += wv * x;
-                    sum[3 * r + 1] += wv * y;
-                    sum[3 * r + 2] += wv * z;
-                    squares += wv * v;
-                }
+    const std::size_t slot = block * block_size;
+    const Vector x0[3] = {place_[0][block], place_[1][block], place_[2][block]};
+    const Vector v0[3] = {velocity[0][block], velocity[1][block], velocity[2][block]};
+    Vector sum[9] = {};
+    Vector squares{};
+    for (const NeighbourColumn& n : neighbours_[column_of_block_[block]]) {
+        const std::size_t first = slot + static_cast<std::size_t>(n.offset);
+        for (std::size_t e = 0; e < n.count; ++e) {
+            const std::size_t j = first + e;
+            const Vector w = n.steepness[e] * load(volume + j);
+            const Vector x = load(place[0] + j) - x0[0];
+            const Vector y = load(place[1] + j) - x0[1];
+            const Vector z = load(place[2] + j) - x0[2];
+            for (std::size_t r = 0; r < 3; ++r) {
+                const Vector v = load(speed[r] + j) - v0[r];
+                const Vector wv = w * v;
+                sum[3 * r] += wv * x;
+                sum[3 * r + 1] += wv * y;
+                sum[3 * r + 2] += wv * z;
+                squares += wv * v;
             }
         }
-        Vector rate[9];
-        times_symmetric(sum, inverse_, block, rate);
-        Vector explained{};
-        for (std::size_t c = 0; c < 9; ++c) {
-            explained += sum[c] * rate[c];
-            particles.rate[c][block] = rate[c];
+    }
+    Vector rate[9];
+    times_symmetric(sum, inverse_, block, rate);
+    Vector explained{};
+    for (std::size_t c = 0; c < 9; ++c) {
+        explained += sum[c] * rate[c];
+        particles.rate[c][block] = rate[c];
+    }
+    particles.hourglass_heating[block] =
+        viscosity_ * material::lane_max(squares - explained, Vector{});
+}
+
+namespace {
+
+/// All of the stencil is in step.
+struct Alike {
+    float own_pull;
+    const float* speed[3];
+    Vector own[3];
+
+    Alike(const Particles& particles, std::size_t block, float share) : own_pull(share) {
+        for (std::size_t r = 0; r < 3; ++r) {
+            speed[r] = particles.speed[r].lanes();
+            own[r] = particles.speed[r][block];
         }
-        particles.hourglass_heating[block] =
-            viscosity_ * material::lane_max(squares - explained, Vector{});
+    }
+    bool silent(std::size_t) const { return false; }
+    float pull(std::size_t) const { return own_pull; }
+    Vector damping(std::size_t r, std::size_t j, float pull) const {
+        return 2 * pull * (load(speed[r] + j) - own[r]);
+    }
+};
+
+/// What arrives now of stresses that were renewed over several levels' steps.
+struct Mixed {
+    const float* impulses;
+    const float* level;
+    bool own_arrives;
+    Vector own_pull;
+    Vector per_period;
+    float open;
+    const float* own_step_speed[3];  // means over the block's last renewal
+    Vector own_step_own[3];
+    const float* renewed_speed[3];  // each slot's mean over its own last renewal
+    std::size_t levels = 0;
+    float number[Schedule::highest_level + 1];
+    Vector own[Schedule::highest_level + 1][3];  // the block's means over these levels
+
+    Mixed(const Particles& particles, std::size_t block, const Arrivals& arrivals)
+        : impulses(arrivals.impulse.lanes()),
+          level(arrivals.level.lanes()),
+          per_period(material::broadcast(1 / arrivals.period)),
+          open(arrivals.open) {
+        const Vector impulse = arrivals.impulse[block];
+        own_arrives = impulse[0] <= open;
+        own_pull = own_arrives ? impulse * per_period : Vector{};
+        const auto own_level = static_cast<std::size_t>(arrivals.level[block][0]);
+        const auto& means = arrivals.stencil_means ? particles.mean_speed[own_level - 1]
+                                                   : particles.speed;
+        for (std::size_t r = 0; r < 3; ++r) {
+            own_step_speed[r] = means[r].lanes();
+            own_step_own[r] = means[r][block];
+            renewed_speed[r] = particles.renewed_speed[r].lanes();
+        }
+        for (std::size_t l = 0; l <= Schedule::highest_level; ++l) {
+            if ((arrivals.levels >> l & 1u) == 0) continue;
+            const bool kept = (arrivals.block_means >> l & 1u) != 0;
+            const auto& velocity = kept ? particles.mean_speed[l - 1] : particles.speed;
+            number[levels] = static_cast<float>(l);
+            for (std::size_t r = 0; r < 3; ++r) own[levels][r] = velocity[r][block];
+            ++levels;
+        }
+    }
+    /// Whether nothing passes now between the block and the sixteen slots from j on.
+    bool silent(std::size_t j) const {
+        return !own_arrives && impulses[j] > open && impulses[j + block_size - 1] > open;
+    }
+    Vector pull(std::size_t j) const {
+        const Vector impulse = load(impulses + j);
+        return impulse <= open ? impulse * per_period : Vector{};
+    }
+    Vector damping(std::size_t r, std::size_t j, const Vector& pull) const {
+        const Vector of = load(level + j);
+        Vector seen = own[0][r];
+        for (std::size_t l = 1; l < levels; ++l) {
+            seen = of == number[l] ? own[l][r] : seen;
+        }
+        return own_pull * (load(own_step_speed[r] + j) - own_step_own[r]) +
+               pull * (load(renewed_speed[r] + j) - seen);
+    }
+};
+
+}  // namespace
+
+template <class Steps>
+void Reference::accelerate_in(const Steps& steps, Particles& particles,
+                              std::size_t block) const {
+    const float* volume = volume_.lanes();
+    const float* place[3];
+    const float* pull[9];
+    for (std::size_t c = 0; c < 3; ++c) place[c] = place_[c].lanes();
+    for (std::size_t c = 0; c < 9; ++c) pull[c] = particles.pull[c].lanes();
+    const std::size_t slot = block * block_size;
+    const Vector x0[3] = {place_[0][block], place_[1][block], place_[2][block]};
+    Vector force[3];         // Q_i sum_j w X_ij + sum_j w Q_j X_ij
+    Vector damping[3] = {};  // sum_j w v_ij, for i's and for j's part
+    for (std::size_t r = 0; r < 3; ++r) {
+        force[r] =
+            steps.own_pull * (particles.pull[3 * r][block] * first_moment_[0][block] +
+                              particles.pull[3 * r + 1][block] * first_moment_[1][block] +
+                              particles.pull[3 * r + 2][block] * first_moment_[2][block]);
+    }
+    for (const NeighbourColumn& n : neighbours_[column_of_block_[block]]) {
+        const std::size_t first = slot + static_cast<std::size_t>(n.offset);
+        for (std::size_t e = 0; e < n.count; ++e) {
+            const std::size_t j = first + e;
+            if (steps.silent(j)) continue;
+            const Vector w = n.steepness[e] * load(volume + j);
+            const auto pulled = steps.pull(j);
+            const Vector wx = w * pulled * (load(place[0] + j) - x0[0]);
+            const Vector wy = w * pulled * (load(place[1] + j) - x0[1]);
+            const Vector wz = w * pulled * (load(place[2] + j) - x0[2]);
+            for (std::size_t r = 0; r < 3; ++r) {
+                force[r] += load(pull[3 * r] + j) * wx + load(pull[3 * r + 1] + j) * wy +
+                            load(pull[3 * r + 2] + j) * wz;
+                damping[r] += w * steps.damping(r, j, pulled);
+            }
+        }
+    }
+    for (std::size_t r = 0; r < 3; ++r) {
+        particles.acceleration[r][block] =
+            specific_volume_[block] * (force[r] + viscosity_ * damping[r]);
     }
 }
 
-void Reference::accelerate(Particles& particles) const {
-    const float* volume = volume_.lanes();
-    const float* place[3];
-    const float* speed[3];
-    const float* pull[9];
-    for (std::size_t c = 0; c < 3; ++c) {
-        place[c] = place_[c].lanes();
-        speed[c] = particles.speed[c].lanes();
+void Reference::accelerate(Particles& particles, std::size_t block, float share) const {
+    accelerate_in(Alike(particles, block, share), particles, block);
+}
+
+void Reference::accelerate(Particles& particles, std::size_t block,
+                           const Arrivals& arrivals) const {
+    accelerate_in(Mixed(particles, block, arrivals), particles, block);
+}
+
+std::vector<std::vector<std::uint32_t>> Reference::stencils(
+    const Packing& packing) const {
+    std::vector<std::uint32_t> index_of_block(packing.slots / block_size);
+    for (std::size_t i = 0; i < active_.size(); ++i) {
+        index_of_block[active_[i]] = static_cast<std::uint32_t>(i);
     }
-    for (std::size_t c = 0; c < 9; ++c) pull[c] = particles.pull[c].lanes();
+    std::vector<std::vector<std::uint32_t>> stencils;
     for (const std::size_t block : active_) {
-        const std::size_t slot = block * block_size;
-        const Vector x0[3] = {place_[0][block], place_[1][block], place_[2][block]};
-        const Vector v0[3] = {particles.speed[0][block], particles.speed[1][block],
-                              particles.speed[2][block]};
-        Vector force[3];         // Q_i sum_j w X_ij + sum_j w Q_j X_ij
-        Vector damping[3] = {};  // sum_j w v_ij
-        for (std::size_t r = 0; r < 3; ++r) {
-            force[r] = particles.pull[3 * r][block] * first_moment_[0][block] +
-                       particles.pull[3 * r + 1][block] * first_moment_[1][block] +
-                       particles.pull[3 * r + 2][block] * first_moment_[2][block];
-        }
+        std::set<std::uint32_t> stencil = {index_of_block[block]};
         for (const NeighbourColumn& n : neighbours_[column_of_block_[block]]) {
-            const std::size_t first = slot + static_cast<std::size_t>(n.offset);
             for (std::size_t e = 0; e < n.count; ++e) {
-                const std::size_t j = first + e;
-                const Vector w = n.steepness[e] * load(volume + j);
-                const Vector wx = w * (load(place[0] + j) - x0[0]);
-                const Vector wy = w * (load(place[1] + j) - x0[1]);
-                const Vector wz = w * (load(place[2] + j) - x0[2]);
-                for (std::size_t r = 0; r < 3; ++r) {
-                    force[r] += load(pull[3 * r] + j) * wx +
-                                load(pull[3 * r + 1] + j) * wy +
-                                load(pull[3 * r + 2] + j) * wz;
-                    damping[r] += w * (load(speed[r] + j) - v0[r]);
+                for (std::size_t k = 0; k < block_size; ++k) {
+                    const std::size_t i = block * block_size + k;
+                    const std::size_t j = i + static_cast<std::size_t>(n.offset) + e;
+                    if (packing.volume[i] > 0 && packing.volume[j] > 0)
+                        stencil.insert(index_of_block[j / block_size]);
                 }
             }
         }
-        for (std::size_t r = 0; r < 3; ++r) {
-            particles.acceleration[r][block] =
-                specific_volume_[block] * (force[r] + 2 * viscosity_ * damping[r]);
-        }
+        stencils.emplace_back(stencil.begin(), stencil.end());
     }
+    return stencils;
 }
 
 void Reference::store_pull(Particles& particles, std::size_t block,

@@ -4,6 +4,7 @@
 #include "solver/sph/particles.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace taylorcal::sph {
@@ -19,21 +20,32 @@ class Reference {
     /// `hourglass_viscosity` damps what the gradients cannot see [Pa s].
     Reference(const Packing& packing, double density, double hourglass_viscosity);
 
-    /// dF/dt of every particle from the velocities, and the heat of hourglass damping.
-    void velocity_gradient(Particles& particles) const;
+    /// dF/dt of a block's particles from velocities, and the heat of hourglass damping.
+    void velocity_gradient(Particles& particles, std::size_t block,
+                           const std::array<Field, 3>& velocity) const;
 
-    /// Accelerations from the stresses Q = P K^-1 in `pull`, and hourglass damping.
-    /// The hourglass force of a pair is minus the derivative of the dissipation
-    /// c sum_i V_i sum_j w |v_ij - Fdot_i X_ij|^2 / 2: the correction needs no more than
-    /// -c Fdot within Q and the relative velocity, because K-fitted gradients are
-    /// stationary points of that sum.
-    void accelerate(Particles& particles) const;
+    /// Accelerations of a block from the stresses Q = P K^-1 in `pull`, of which `share`
+    /// counts, and from hourglass damping. The hourglass force of a pair is minus the
+    /// derivative of the dissipation c sum_i V_i sum_j w |v_ij - Fdot_i X_ij|^2 / 2: the
+    /// correction needs no more than -c Fdot within Q and the relative velocity, because
+    /// K-fitted gradients are stationary points of that sum.
+    void accelerate(Particles& particles, std::size_t block, float share = 1) const;
+    /// The same where steps differ: the stresses and damping of newly renewed particles
+    /// act on all their pairs at once for their whole step, others have acted already. So
+    /// the impulses of all pairs add up to nothing, and damping takes what it heats.
+    void accelerate(Particles& particles, std::size_t block,
+                    const Arrivals& arrivals) const;
 
     /// P K^-1 - c Fdot for one block, from P.
     void store_pull(Particles& particles, std::size_t block,
                     const Vector (&stress)[9]) const;
 
+    /// Mean number of neighbours that a particle has in the reference state.
+    double mean_neighbours() const;
     const Field& volume() const { return volume_; }
+    /// For every active block the active blocks with which it shares a pair of
+    /// neighbours, itself included, by their indices within Packing::active.
+    std::vector<std::vector<std::uint32_t>> stencils(const Packing& packing) const;
 
   private:
     /// The sites of one neighbouring column that a site sees.
@@ -45,6 +57,8 @@ class Reference {
 
     void find_neighbours(const Packing& packing);
     void measure_moments(const Packing& packing);
+    template <class Steps>
+    void accelerate_in(const Steps& steps, Particles& particles, std::size_t block) const;
 
     std::vector<std::size_t> active_;
     std::vector<std::size_t> column_of_block_;

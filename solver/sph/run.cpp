@@ -1,3 +1,4 @@
+// (remove this line).
 #include "solver/sph/run.hpp"
 
 #include "solver/impact/simulate.hpp"
@@ -83,18 +84,20 @@ class Run {
         result.snapshots = snapshots_;
         if (!snapshots_.empty() && snapshots_.back().time_us < result.fields.time_us)
             result.snapshots.push_back(result.fields);
-        result.steps = steps_;
+        result.steps = body_.ticks();
         result.points = static_cast<std::int64_t>(body_.packing().particles);
-        result.grain_updates = result.points * case_.numerics.grains_per_point * steps_;
+        result.grain_updates = body_.point_updates() * case_.numerics.grains_per_point;
+        result.grains_per_point = case_.numerics.grains_per_point;
+        result.phase_shares = body_.clock().shares();
+        result.neighbours = body_.mean_neighbours();
         result.cpu_s = thread_cpu_seconds() - start_;
         return result;
     }
 
   private:
     void advance() {
-        if (case_.run_until_s > 0) body_.shorten_step(case_.run_until_s - body_.time());
-        body_.step();
-        ++steps_;
+        if (case_.run_until_s > 0) body_.shorten_cycle(case_.run_until_s - body_.time());
+        body_.cycle();
         const double velocity = monitor_.rear_velocity();
         if (!stop_time_ && velocity >= 0) {
             stop_time_ = body_.time();
@@ -122,7 +125,7 @@ class Run {
             result.reason = reason;
             return true;
         };
-        if (body_.report().tangled) {
+        if (body_.tangled()) {
             return end(Status::failed,
                        fmt::format("tangled particles at {:.4g} us", body_.time() * 1e6));
         }
@@ -145,10 +148,10 @@ class Run {
         if (body_.time() >= numerics.stop_time_limit_s) {
             return limit("stop_time_limit_s", numerics.stop_time_limit_s);
         }
-        if (steps_ >= numerics.step_limit) {
+        if (body_.ticks() >= numerics.step_limit) {
             return limit("step_limit", static_cast<double>(numerics.step_limit));
         }
-        if (steps_ % 64 == 0 && thread_cpu_seconds() - start_ > numerics.cpu_limit_s) {
+        if (thread_cpu_seconds() - start_ > numerics.cpu_limit_s) {
             return limit("cpu_limit_s", numerics.cpu_limit_s);
         }
         return false;
@@ -178,7 +181,6 @@ class Run {
     std::vector<impact::Fields> snapshots_;
     double ringing_period_ = 0;
     std::optional<double> stop_time_;
-    std::int64_t steps_ = 0;
 };
 
 }  // namespace

@@ -48,8 +48,7 @@ SelfContact::SelfContact(const Packing& packing, double density)
 void SelfContact::find_surface() {
     std::map<std::tuple<int, int, int>, std::size_t> slot_at;
     for (const Column& column : packing_.columns) {
-        const std::size_t end =
-            column.first_slot + packing_.blocks_per_column * block_size;
+        const std::size_t end = column.first_slot + packing_.sites_per_column;
         for (std::size_t slot = column.first_slot; slot < end; ++slot) {
             if (packing_.volume[slot] <= 0) continue;
             const auto layer =
@@ -114,7 +113,7 @@ void SelfContact::find_pairs(const Particles& particles) {
     }
 }
 
-void SelfContact::separate(Particles& particles, double kick, double dt) {
+const SlotPairs& SelfContact::approaching(const Particles& particles, double duration) {
     double fastest = 0;
     for (const std::size_t slot : surface_) {
         const double speed =
@@ -122,13 +121,19 @@ void SelfContact::separate(Particles& particles, double kick, double dt) {
                        particles.velocity[2][slot]);
         fastest = std::max(fastest, speed);
     }
-    allowance_ -= 2 * fastest * dt;
+    allowance_ -= 2 * fastest * duration;
     if (allowance_ <= 0) {
         find_pairs(particles);
-        allowance_ = search_margin * packing_.edge - 2 * fastest * dt;
+        allowance_ = search_margin * packing_.edge - 2 * fastest * duration;
     }
+    return pairs_;
+}
+
+void SelfContact::separate(Particles& particles, const Schedule& schedule, int level) {
+    const double dt = schedule.step(level);
     const double touching = contact_distance * packing_.edge;
     for (const auto& [i, j] : pairs_) {
+        if (schedule.motion_level(i) != level) continue;
         const Eigen::Vector3d line = offset(particles.position, i, j);
         const double distance = line.norm();
         if (distance >= touching) continue;
@@ -142,7 +147,7 @@ void SelfContact::separate(Particles& particles, double kick, double dt) {
         double pulled = 0;
         for (std::size_t c = 0; c < 3; ++c) {
             const float* acceleration = particles.acceleration[c].lanes();
-            pulled += kick * normal(static_cast<Eigen::Index>(c)) *
+            pulled += dt * normal(static_cast<Eigen::Index>(c)) *
                       static_cast<double>(acceleration[i] - acceleration[j]);
         }
         lost_energy_ += 0.5 * impulse * (closing - pulled);

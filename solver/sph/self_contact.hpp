@@ -17,9 +17,11 @@ class SelfContact {
   public:
     SelfContact(const Packing& packing, double density);
 
-    /// Corrects the velocities with which particles are about to move for `dt`, after the
-    /// accelerations have acted on them for `kick`. [s]
-    void separate(Particles& particles, double kick, double dt);
+    /// Finds the pairs of slots that may meet within a time [s].
+    const SlotPairs& approaching(const Particles& particles, double duration);
+    /// Corrects the velocities with which the pairs of a level are about to move for its
+    /// step, for which the accelerations have acted on them.
+    void separate(Particles& particles, const Schedule& schedule, int level);
 
     double lost_energy() const { return lost_energy_; }  ///< kinetic [J]
 
@@ -29,8 +31,8 @@ class SelfContact {
 
     const Packing& packing_;
     double density_;
-    std::vector<std::size_t> surface_;                        // slots
-    std::vector<std::pair<std::size_t, std::size_t>> pairs_;  // that may meet soon
+    std::vector<std::size_t> surface_;  // slots
+    SlotPairs pairs_;                   // that may meet soon
     double allowance_ = 0;  // way that two particles may still close before a new search
     double lost_energy_ = 0;
 };

@@ -28,7 +28,9 @@ struct Patch {
                     material::broadcast(static_cast<float>(rate(c / 3, c % 3)));
             }
         }
-        constitutive.update(particles, reference, dt);
+        for (std::size_t index = 0; index < packing.active.size(); ++index) {
+            constitutive.update(particles, reference, index, dt);
+        }
     }
     double stress(std::size_t component) const {
         const std::size_t block = packing.active.front();

@@ -47,7 +47,8 @@ TEST_CASE("a dislocation run stops, closes its energy and repeats itself", "[run
     CHECK(first.descriptors.energy_error < 5e-3);
     CHECK(first.descriptors.stop_time_us > 30);
     CHECK(first.descriptors.stop_time_us < 80);
-    CHECK(first.grain_updates == first.points * first.steps);
+    CHECK(first.grain_updates > first.points * first.steps / 4);
+    CHECK(first.grain_updates < first.points * first.steps);
     CHECK(first.fields.x_mm.size() == static_cast<std::size_t>(first.points));
     // Copper keeps its volume to some tenths of a percent.
     double volume = 0;

@@ -1,0 +1,145 @@
+#include "solver/sph/schedule.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace taylorcal::sph {
+
+namespace {
+
+constexpr double longest_growth = 1.05;  // of the finest step from one cycle to the next
+constexpr int tick_candidates = 8;       // within the factor of two between levels
+
+}  // namespace
+
+Schedule::Pattern::Pattern(const Packing& packing)
+    : pulled_alike(packing.active.size(), true),
+      moved_alike(packing.active.size(), true),
+      means_wanted(packing.active.size()),
+      levels(packing.active.size(), 1u),
+      level(packing.slots) {}
+
+Schedule::Schedule(const Packing& packing,
+                   std::vector<std::vector<std::uint32_t>> stencils)
+    : packing_(packing),
+      stencils_(std::move(stencils)),
+      index_of_block_(packing.slots / block_size),
+      renewal_(stencils_.size()),
+      motion_(stencils_.size()),
+      last_(stencils_.size()),
+      share_(stencils_.size()),
+      shared_alike_(stencils_.size()),
+      now_(packing),
+      before_(packing),
+      moving_(highest_level + 1),
+      renewed_(highest_level + 1),
+      impulse_(packing.slots),
+      first_impulse_(packing.slots) {
+    for (std::size_t i = 0; i < packing.active.size(); ++i) {
+        index_of_block_[packing.active[i]] = static_cast<std::uint32_t>(i);
+    }
+}
+
+int Schedule::level(double stable, double tick) const {
+    return std::clamp(std::ilogb(stable / tick), 0, highest_level);
+}
+
+void Schedule::plan(const std::vector<double>& stable) {
+    const double least = *std::min_element(stable.begin(), stable.end());
+    finest_ = finest_ > 0 ? std::min(least, longest_growth * finest_) : least;
+    // A somewhat finer tick may let most blocks take steps nearer to what they can.
+    double lowest_cost = INFINITY;
+    for (int c = 0; c < tick_candidates; ++c) {
+        const double tick =
+            finest_ * std::exp2(-static_cast<double>(c) / tick_candidates);
+        double cost = 0;
+        for (const double s : stable) cost += std::ldexp(1 / tick, -level(s, tick));
+        if (cost >= lowest_cost) continue;
+        lowest_cost = cost;
+        tick_ = tick;
+    }
+    for (std::size_t i = 0; i < stable.size(); ++i) renewal_[i] = level(stable[i], tick_);
+    top_ = *std::max_element(renewal_.begin(), renewal_.end());
+}
+
+void Schedule::shorten(double longest) {
+    if (duration() > longest) tick_ = longest / ticks();
+}
+
+void Schedule::choose_motion(const SlotPairs& pairs) {
+    for (std::size_t i = 0; i < stencils_.size(); ++i) {
+        motion_[i] = highest_level;
+        for (const std::uint32_t j : stencils_[i]) {
+            motion_[i] = std::min(motion_[i], renewal_[j]);
+        }
+    }
+    for (bool changed = true; changed;) {
+        changed = false;
+        for (const auto& [i, j] : pairs) {
+            int& a = motion_[index_of_block_[i / block_size]];
+            int& b = motion_[index_of_block_[j / block_size]];
+            changed = changed || a != b;
+            a = b = std::min(a, b);
+        }
+    }
+}
+
+void Schedule::share_steps() {
+    for (std::size_t i = 0; i < stencils_.size(); ++i) {
+        const double next = step(renewal_[i]);
+        share_[i] = static_cast<float>((last_[i] + next) / (2 * next));
+        last_[i] = next;
+        const std::size_t block = packing_.active[i];
+        now_.level[block] = material::broadcast(static_cast<float>(renewal_[i]));
+        impulse_[block] = material::broadcast(static_cast<float>(1u << renewal_[i]));
+        first_impulse_[block] = share_[i] * impulse_[block];
+    }
+}
+
+void Schedule::start(const SlotPairs& pairs) {
+    std::swap(now_, before_);
+    choose_motion(pairs);
+    share_steps();
+    for (auto* lists : {&moving_, &renewed_}) {
+        for (auto& list : *lists) list.clear();
+    }
+    std::fill(now_.means_wanted.begin(), now_.means_wanted.end(), 0u);
+    for (std::uint32_t i = 0; i < stencils_.size(); ++i) {
+        moving_[static_cast<std::size_t>(motion_[i])].push_back(i);
+        renewed_[static_cast<std::size_t>(renewal_[i])].push_back(i);
+        bool pulled = true, shared = true, moved = true;
+        now_.levels[i] = 0;
+        for (const std::uint32_t j : stencils_[i]) {
+            pulled = pulled && motion_[j] == motion_[i] && renewal_[j] == motion_[i];
+            shared = shared && share_[j] == share_[i];
+            moved = moved && motion_[j] == renewal_[i];
+            now_.levels[i] |= 1u << renewal_[j];
+        }
+        now_.pulled_alike[i] = pulled;
+        shared_alike_[i] = shared;
+        now_.moved_alike[i] = moved;
+        if (moved) continue;
+        for (const std::uint32_t j : stencils_[i]) {
+            now_.means_wanted[j] |= 1u << renewal_[i];
+        }
+    }
+}
+
+int Schedule::open_level(std::uint32_t tick) const {
+    return std::min(top_, std::countr_zero(tick));
+}
+
+Arrivals Schedule::arrivals(std::uint32_t index, std::uint32_t tick) const {
+    const bool first = tick == 0;
+    const Pattern& seen = first ? before_ : now_;
+    return {first ? first_impulse_ : impulse_,
+            seen.level,
+            first ? INFINITY : static_cast<float>(1u << open_level(tick)),
+            static_cast<float>(1u << motion_[index]),
+            seen.levels[index],
+            seen.means_wanted[index],
+            !seen.moved_alike[index]};
+}
+
+}  // namespace taylorcal::sph

@@ -31,17 +31,16 @@ impact::ImpactCase small_case() {
 
 /// Slot of every site, in the order in which a body wants its grains, and padding lanes.
 std::vector<Site> sites_in_order(const sph::Packing& packing) {
-    std::vector<const sph::Column*> column_of(packing.slots, nullptr);
+    std::vector<const sph::Column*> column_of(packing.slots / sph::block_size, nullptr);
     for (const sph::Column& column : packing.columns) {
-        for (std::size_t k = 0; k < packing.blocks_per_column * sph::block_size; ++k) {
-            column_of[column.first_slot + k] = &column;
-        }
+        for (std::size_t b = 0; b + 1 < packing.blocks_per_column; ++b)
+            column_of[column.first_block + b] = &column;
     }
     std::vector<Site> sites;
     for (const std::size_t block : packing.active) {
         for (std::size_t lane = 0; lane < sph::block_size; ++lane) {
             const std::size_t slot = block * sph::block_size + lane;
-            const sph::Column& column = *column_of[slot];
+            const sph::Column& column = *column_of[block];
             sites.push_back({column.ix, column.iy,
                              static_cast<std::int64_t>(slot - column.first_slot)});
         }

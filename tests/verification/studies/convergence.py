@@ -4,7 +4,7 @@ import matplotlib
 import numpy as np
 import pandas as pd
 from impact_runs import SHAPE_WORDS, SHAPES, SIZES, read_run
-from impact_study import VELOCITIES, axisymmetric_name, convergence_cases, solid_name
+from impact_study import SERIES, VELOCITIES, convergence_cases, convergence_name
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
@@ -17,12 +17,14 @@ FITTED = 3  # finest settings that the extrapolation sees
 def collect():
     """One row a run: what it was, its sizes [mm] and its cost."""
     rows = []
-    for geometry, name_of in [("axisymmetric", axisymmetric_name), ("3d", solid_name)]:
-        for elements, shape, velocity in convergence_cases(geometry):
-            answer = read_run(name_of(elements, shape, velocity))
+    for series in SERIES:
+        geometry, grains, _ = series
+        for elements, shape, velocity in convergence_cases(series):
+            answer = read_run(convergence_name(series, (elements, shape, velocity)))
             cost = {key: answer[key] for key in ["points", "steps", "cpu_s", "status"]}
             case = {
                 "geometry": geometry,
+                "grains": grains,
                 "elements": elements,
                 "shape": shape,
                 "velocity_m_s": velocity,
@@ -55,8 +57,8 @@ def draw(table, path):
     for row, shape in zip(axes, SHAPES):
         for axis, velocity in zip(row, VELOCITIES):
             case = table[(table["shape"] == shape) & (table["velocity_m_s"] == velocity)]
-            for geometry, style in [("axisymmetric", "o-"), ("3d", "s:")]:
-                part = case[case["geometry"] == geometry]
+            for (geometry, grains, _), style in zip(SERIES, ["o-", "s:", "^--"]):
+                part = case[(case["geometry"] == geometry) & (case["grains"] == grains)]
                 for size in DRAWN:
                     axis.plot(
                         part["elements"],
@@ -64,7 +66,7 @@ def draw(table, path):
                         style,
                         markersize=4,
                         color=COLOURS[size],
-                        label=f"{size.removesuffix('_mm').replace('_', ' ')}, {geometry}",
+                        label=f"{size.removesuffix('_mm').replace('_', ' ')}, {geometry}, {grains}",
                     )
             axis.axhspan(-1, 1, color="0.92", zorder=0)
             axis.set_title(f"{SHAPE_WORDS[shape]}, {velocity} m/s", fontsize=10)
@@ -77,7 +79,14 @@ def draw(table, path):
     for axis in axes[:, 0]:
         axis.set_ylabel("from the axisymmetric limit [%]")
     handles, labels = axes[0, 0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="lower center", ncol=2, fontsize=9)
+    figure.legend(
+        handles,
+        labels,
+        loc="lower center",
+        ncol=3,
+        fontsize=9,
+        title="size, geometry, grains a point",
+    )
     figure.tight_layout(rect=(0, 0.1, 1, 1))
     figure.savefig(path, dpi=110)
 
@@ -87,9 +96,14 @@ def main(table_path, figure_path):
     table.round(4).to_csv(table_path, index=False)
     draw(table, figure_path)
     columns = [f"{size}_deviation_percent" for size in DRAWN]
-    worst = table.groupby(["geometry", "elements"])[columns].agg(lambda x: x.abs().max())
+    worst = table.groupby(["geometry", "grains", "elements"])[columns].agg(lambda x: x.abs().max())
     print(worst.round(2).to_string())
-    print(table.groupby(["geometry", "elements", "shape"])["cpu_s"].max().round(1).to_string())
+    print(
+        table.groupby(["geometry", "grains", "elements", "shape"])["cpu_s"]
+        .max()
+        .round(1)
+        .to_string()
+    )
 
 
 if __name__ == "__main__":

@@ -3,38 +3,37 @@
 from impact_runs import SHAPES, files_of, run_name
 
 VELOCITIES = [60, 90, 120]  # [m/s]
-AXISYMMETRIC_ELEMENTS = [6, 8, 12, 16, 24]  # cells over the rear radius
-SOLID_ELEMENTS = [4, 6]  # particles over the rear radius: 4k and 14k in all
-# 46k particles, as many as the source paper's, where they cost minutes and not an hour.
+# Geometry, grains a point, and cells or particles over the rear radius. In 3D one grain is the
+# source paper's choice; several tell what belongs to the geometry and what to the grains.
+SERIES = [("axisymmetric", 16, [5, 8, 12, 16]), ("3d", 1, [4, 6]), ("3d", 4, [4, 6])]
+# 46k particles, as many as the source paper's, where they cost a minute or two.
 FINE_SOLID = [(9, "uniform_cylinder", 90), (9, "reduced_head_4mm", 90)]
-NOISE_SETTINGS = [("axisymmetric", 6, 8), ("axisymmetric", 12, 16), ("3d", 4, 1), ("3d", 4, 4)]
-NOISE_SEEDS = range(1, 9)
+NOISE_SETTINGS = [("axisymmetric", 5, 8), ("axisymmetric", 8, 16), ("3d", 4, 1), ("3d", 6, 4)]
+NOISE_SEEDS = {"axisymmetric": range(1, 9), "3d": range(1, 6)}
 NOISE_VELOCITY = 90
-DISSIPATION_SETTINGS = [("axisymmetric", 12, 16), ("3d", 4, 1)]
+DISSIPATION_SETTINGS = [("axisymmetric", 8, 16), ("3d", 4, 1)]
 DISSIPATION_CHANGES = ["", "viscosity0.5", "hourglass0.5"]
 DISSIPATION_VELOCITY = 90
-ENERGY_SETTINGS = [("axisymmetric", 6, 8), ("3d", 4, 1)]  # coarse
+ENERGY_SETTINGS = [("axisymmetric", 5, 8), ("3d", 4, 1)]  # coarse
 ENERGY_VELOCITY = 120
 
 
-def axisymmetric_name(elements, shape, velocity):
-    return run_name("axisymmetric", elements, 16, shape, velocity)
-
-
-def solid_name(elements, shape, velocity):
-    return run_name("3d", elements, 1, shape, velocity)
-
-
-def convergence_cases(geometry):
-    """(elements, shape, velocity) of a geometry."""
-    levels = AXISYMMETRIC_ELEMENTS if geometry == "axisymmetric" else SOLID_ELEMENTS
+def convergence_cases(series):
+    """(elements, shape, velocity) of one of SERIES."""
+    geometry, grains, levels = series
     cases = [(n, shape, v) for n in levels for shape in SHAPES for v in VELOCITIES]
-    return cases + (FINE_SOLID if geometry == "3d" else [])
+    return cases + (FINE_SOLID if (geometry, grains) == ("3d", 1) else [])
+
+
+def convergence_name(series, case):
+    geometry, grains, _ = series
+    elements, shape, velocity = case
+    return run_name(geometry, elements, grains, shape, velocity)
 
 
 def convergence_runs():
-    return [axisymmetric_name(*case) for case in convergence_cases("axisymmetric")] + [
-        solid_name(*case) for case in convergence_cases("3d")
+    return [
+        convergence_name(series, case) for series in SERIES for case in convergence_cases(series)
     ]
 
 
@@ -47,7 +46,7 @@ def noise_runs():
         noise_name(setting, shape, seed)
         for setting in NOISE_SETTINGS
         for shape in SHAPES
-        for seed in NOISE_SEEDS
+        for seed in NOISE_SEEDS[setting[0]]
     ]
 
 

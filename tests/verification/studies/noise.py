@@ -23,7 +23,9 @@ def collect():
     rows = []
     for setting in NOISE_SETTINGS:
         for shape in SHAPES:
-            answers = [read_run(noise_name(setting, shape, seed)) for seed in NOISE_SEEDS]
+            answers = [
+                read_run(noise_name(setting, shape, seed)) for seed in NOISE_SEEDS[setting[0]]
+            ]
             for size in SIZES:
                 values = np.array([answer["sizes"][size] for answer in answers], dtype=float)
                 rows.append(

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from impact_runs import files_of, run_name
 
-ELEMENTS, GRAINS = 16, 16
+ELEMENTS, GRAINS = 12, 16
 SOLID_ELEMENTS, SOLID_GRAINS = 6, 1
 
 

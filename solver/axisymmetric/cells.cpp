@@ -61,16 +61,15 @@ double artificial_viscosity(const Body& body, const Motion& motion, double densi
             body.numerics.quadratic_viscosity * closing);
 }
 
-std::string trouble(const Body& body, std::size_t cell, const std::string& what) {
+[[gnu::noinline]] std::string trouble(const Body& body, std::size_t cell,
+                                      const std::string& what) {
     const auto& corners = body.mesh.cells[cell];
     return fmt::format("{} at r = {:.3f} mm, z = {:.3f} mm after {:.2f} us", what,
                        1e3 * body.radius[corners[0]], 1e3 * body.height[corners[0]],
                        1e6 * body.time);
 }
 
-}  // namespace
-
-std::string advance_cells(Body& body, double dt) {
+std::string advance_all(Body& body, double dt) {
     const std::size_t grains = static_cast<std::size_t>(body.numerics.grains_per_point);
     const std::size_t cells_a_block = grains < lanes ? lanes / grains : 1;
     const std::size_t blocks_a_cell = grains > lanes ? grains / lanes : 1;
@@ -174,6 +173,14 @@ std::string advance_cells(Body& body, double dt) {
         }
     }
     return {};
+}
+
+}  // namespace
+
+std::string advance_cells(Body& body, double dt) {
+    std::string trouble;
+    simd::run([&](auto) { trouble = advance_all(body, dt); });
+    return trouble;
 }
 
 }  // namespace taylorcal::axisymmetric

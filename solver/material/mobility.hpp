@@ -1,6 +1,6 @@
 #pragma once
 
-#include "solver/material/lanes.hpp"
+#include "common/lanes.hpp"
 
 #include <cmath>
 #include <numbers>

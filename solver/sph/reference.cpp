@@ -116,21 +116,15 @@ void Reference::measure_moments(const Packing& packing) {
     }
 }
 
-namespace {
-
-/// A K^-1 for a row-major A and a symmetric K^-1.
-inline void times_symmetric(const Vector (&a)[9], const std::array<Field, 6>& k,
-                            std::size_t b, Vector (&c)[9]) {
-    for (int r = 0; r < 9; r += 3) {
-        c[r] = a[r] * k[0][b] + a[r + 1] * k[3][b] + a[r + 2] * k[4][b];
-        c[r + 1] = a[r] * k[3][b] + a[r + 1] * k[1][b] + a[r + 2] * k[5][b];
-        c[r + 2] = a[r] * k[4][b] + a[r + 1] * k[5][b] + a[r + 2] * k[2][b];
-    }
+void Reference::velocity_gradient(Particles& particles) const {
+    simd::run([&](auto chosen) {
+        velocity_gradient_in<Registers<float, chosen.value>>(particles);
+    });
 }
 
-}  // namespace
-
-void Reference::velocity_gradient(Particles& particles) const {
+template <class Vector>
+void Reference::velocity_gradient_in(Particles& particles) const {
+    const auto load = [](const float* first) { return Vector::load(first); };
     const float* volume = volume_.lanes();
     const float* place[3];
     const float* speed[3];
@@ -171,11 +165,18 @@ void Reference::velocity_gradient(Particles& particles) const {
             particles.rate[c][block] = rate[c];
         }
         particles.hourglass_heating[block] =
-            viscosity_ * material::lane_max(squares - explained, Vector{});
+            viscosity_ * lane_max(squares - explained, Vector{});
     }
 }
 
 void Reference::accelerate(Particles& particles) const {
+    simd::run(
+        [&](auto chosen) { accelerate_in<Registers<float, chosen.value>>(particles); });
+}
+
+template <class Vector>
+void Reference::accelerate_in(Particles& particles) const {
+    const auto load = [](const float* first) { return Vector::load(first); };
     const float* volume = volume_.lanes();
     const float* place[3];
     const float* speed[3];
@@ -217,15 +218,6 @@ void Reference::accelerate(Particles& particles) const {
             particles.acceleration[r][block] =
                 specific_volume_[block] * (force[r] + 2 * viscosity_ * damping[r]);
         }
-    }
-}
-
-void Reference::store_pull(Particles& particles, std::size_t block,
-                           const Vector (&stress)[9]) const {
-    Vector pull[9];
-    times_symmetric(stress, inverse_, block, pull);
-    for (std::size_t c = 0; c < 9; ++c) {
-        particles.pull[c][block] = pull[c] - viscosity_ * particles.rate[c][block];
     }
 }
 

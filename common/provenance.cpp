@@ -1,6 +1,7 @@
 #include "common/provenance.hpp"
 
 #include "common/revision.hpp"
+#include "common/simd.hpp"
 
 #include <fstream>
 
@@ -31,6 +32,7 @@ nlohmann::json provenance(const std::string& program, std::uint64_t seed,
             {"revision", source_revision()},
             {"compiler", compiler()},
             {"processor", processor()},
+            {"simd", simd::name(simd::variant())},
             {"seed", seed},
             {"configuration", configuration},
             {"configuration_digest", digest(configuration.dump())}};

@@ -8,7 +8,8 @@
 namespace taylorcal {
 
 /// What every output records: program, version, source revision, compiler, processor,
-/// seed and configuration (whole, and its digest). No dates: same inputs, same bytes.
+/// variant of the hot loops, seed and configuration (whole, and its digest). No dates:
+/// same inputs, same bytes.
 nlohmann::json provenance(const std::string& program, std::uint64_t seed,
                           const nlohmann::json& configuration);
 

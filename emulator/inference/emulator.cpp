@@ -2,6 +2,7 @@
 
 #include "common/errors.hpp"
 #include "common/json_reader.hpp"
+#include "emulator/inference/dense.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -108,7 +109,7 @@ void Emulator::evaluate_member(std::size_t member, const Block& points, int cate
     const ForwardPass& forward = forward_[member];
     const Eigen::Index n = points.cols();
     results.resize(forward.outputs(), n);
-    const Eigen::Index columns = std::min(block_width, n);
+    const Eigen::Index columns = padded<float>(std::min(block_width, n));
     workspace.from.resize(forward.widest(), columns);
     workspace.to.resize(forward.widest(), columns);
     for (Eigen::Index start = 0; start < n; start += block_width) {

@@ -1,5 +1,7 @@
 #include "emulator/inference/forward.hpp"
 
+#include "emulator/inference/dense.hpp"
+
 #include <algorithm>
 
 namespace taylorcal::emulator {
@@ -34,14 +36,14 @@ const Block& ForwardPass::run(int category, Workspace& workspace) const {
         const Weights& weights = layers_[i].weights;
         const Eigen::VectorXf& bias =
             i == 0 ? first_bias_[static_cast<std::size_t>(category)] : layers_[i].bias;
-        auto result = to->topRows(weights.rows());
-        result.matrix().noalias() = weights * from->topRows(weights.cols()).matrix();
-        const bool hidden = i + 1 < layers_.size();
-        for (Eigen::Index row = 0; row < weights.rows(); ++row) {
-            auto neuron = result.row(row);
-            neuron += bias[row];
-            if (hidden) neuron = silu(neuron).eval();
-        }
+        const Eigen::Index width = from->cols();
+        multiply<float>(
+            {weights.data(), weights.rows(), weights.cols(), weights.cols(), 1},
+            from->data(), to->data(), width);
+        if (i + 1 < layers_.size())
+            activate(to->data(), bias.data(), weights.rows(), width);
+        else
+            add_bias(to->data(), bias.data(), weights.rows(), width);
         std::swap(from, to);
     }
     return *from;

@@ -21,12 +21,6 @@ struct Workspace {
     Block to;
 };
 
-/// x / (1 + exp(-x)), the network's activation.
-template <typename Derived>
-auto silu(const Eigen::ArrayBase<Derived>& x) {
-    return x / (1 + (-x).exp());
-}
-
 /// One member's layers, made ready to run: the standardisation of the outputs is part of
 /// the last layer, and the one-hot inputs are a bias of the first for each category
 /// value.
@@ -37,8 +31,9 @@ class ForwardPass {
 
     Eigen::Index widest() const { return widest_; }
     Eigen::Index outputs() const { return layers_.back().weights.rows(); }
-    /// Takes standardised inputs in the top rows of workspace.from [.. x block_width];
-    /// the returned block (one of the workspace's) has the outputs in its top rows.
+    /// Takes standardised inputs in the top rows of workspace.from, whose width is
+    /// padded; the returned block (one of the workspace's) has the outputs in its top
+    /// rows.
     const Block& run(int category, Workspace& workspace) const;
 
   private:

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "common/simd.hpp"
+
 #include <cmath>
 
 #include <Eigen/Core>
@@ -21,13 +23,22 @@ class Adam {
     void step(Vector& parameters, const Vector& gradient, Scalar learning_rate,
               const Eigen::ArrayBase<Decay>& decay) {
         ++steps_;
-        mean_ += (1 - beta_1) * (gradient - mean_);
-        square_ += (1 - beta_2) * (gradient.square() - square_);
         const auto unbias_1 = static_cast<Scalar>(1 / (1 - std::pow(beta_1, steps_)));
         const auto unbias_2 = static_cast<Scalar>(1 / (1 - std::pow(beta_2, steps_)));
-        parameters -=
-            learning_rate * (unbias_1 * mean_ / ((unbias_2 * square_).sqrt() + epsilon) +
-                             decay * parameters);
+        const Vector decays = decay;
+        Scalar* p = parameters.data();
+        Scalar* mean = mean_.data();
+        Scalar* square = square_.data();
+        simd::run([&](auto) {
+            for (Eigen::Index i = 0; i < parameters.size(); ++i) {
+                const Scalar g = gradient.data()[i];
+                mean[i] += (1 - beta_1) * (g - mean[i]);
+                square[i] += (1 - beta_2) * (g * g - square[i]);
+                p[i] -= learning_rate * (unbias_1 * mean[i] /
+                                             (std::sqrt(unbias_2 * square[i]) + epsilon) +
+                                         decays.data()[i] * p[i]);
+            }
+        });
     }
 
   private:

@@ -1,8 +1,10 @@
 #include "emulator/training/network.hpp"
 
+#include "emulator/inference/dense.hpp"
 #include "emulator/training/streams.hpp"
 
 #include <cmath>
+#include <utility>
 
 namespace taylorcal::emulator {
 
@@ -48,51 +50,60 @@ auto Network<Scalar>::weights(std::size_t layer) const -> Eigen::Map<const RowMa
 }
 
 template <typename Scalar>
-void Network<Scalar>::add_forward(std::size_t layer, const Block& inputs) {
+void Network<Scalar>::add_forward(std::size_t layer) {
+    const Place& place = places_[layer];
+    const Block& inputs = layer == 0 ? inputs_ : activations_[layer - 1];
+    const Eigen::Index width = inputs.cols();
+    const Scalar* bias = parameters_.data() + place.bias;
     Block& result = activations_[layer];
-    Block& slope = slopes_[layer];
-    result.resize(places_[layer].rows, inputs.cols());
-    result.matrix().noalias() = weights(layer) * inputs.matrix();
-    result.colwise() += parameters_.segment(places_[layer].bias, places_[layer].rows);
-    if (layer + 1 == places_.size()) return;
-    slope = 1 / (1 + (-result).exp());  // The logistic function, for now.
-    for (Eigen::Index row = 0; row < result.rows(); ++row) {
-        auto sum = result.row(row);
-        auto logistic = slope.row(row);
-        const auto old = (logistic * (1 + sum * (1 - logistic))).eval();
-        sum *= logistic;
-        logistic = old;
+    result.resize(place.rows, width);
+    multiply<Scalar>(
+        {parameters_.data() + place.weights, place.rows, place.cols, place.cols, 1},
+        inputs.data(), result.data(), width);
+    if (layer + 1 == places_.size()) {
+        add_bias(result.data(), bias, place.rows, width);
+    } else {
+        slopes_[layer].resize(place.rows, width);
+        activate(result.data(), slopes_[layer].data(), bias, place.rows, width);
     }
 }
 
 template <typename Scalar>
-auto Network<Scalar>::forward(const Block& inputs) -> const Block& {
-    add_forward(0, inputs);
-    for (std::size_t layer = 1; layer < places_.size(); ++layer) {
-        add_forward(layer, activations_[layer - 1]);
-    }
-    return activations_.back();
+auto Network<Scalar>::forward(const Block& inputs) -> Outputs {
+    inputs_.setZero(inputs.rows(), padded<Scalar>(inputs.cols()));
+    inputs_.leftCols(inputs.cols()) = inputs;
+    for (std::size_t layer = 0; layer < places_.size(); ++layer) add_forward(layer);
+    return std::as_const(activations_.back()).leftCols(inputs.cols());
 }
 
 template <typename Scalar>
 Scalar Network<Scalar>::backward(const Block& inputs, const Block& targets,
                                  const Block& mask) {
-    forward(inputs);
     const Scalar count = std::max(mask.sum(), Scalar{1});
-    deltas_.back() = mask * (activations_.back() - targets);
-    const Scalar error = deltas_.back().square().sum() / count;
-    deltas_.back() *= 2 / count;
+    const Block difference = mask * (forward(inputs) - targets);
+    const Scalar error = difference.square().sum() / count;
+    // Samples that pad the block have no error and so no part in any gradient.
+    deltas_.back().setZero(difference.rows(), inputs_.cols());
+    deltas_.back().leftCols(difference.cols()) = difference * (2 / count);
     for (std::size_t layer = places_.size(); layer-- > 0;) {
         const Place& place = places_[layer];
         const Block& delta = deltas_[layer];
-        const Block& from = layer == 0 ? inputs : activations_[layer - 1];
-        Eigen::Map<RowMajor>(gradient_.data() + place.weights, place.rows, place.cols)
-            .noalias() = delta.matrix() * from.matrix().transpose();
+        const Eigen::Index samples = delta.cols();
+        const Block& from = layer == 0 ? inputs_ : activations_[layer - 1];
+        transposed_.setZero(samples, padded<Scalar>(place.cols));
+        transposed_.leftCols(place.cols) = from.transpose();
+        product_.resize(place.rows, transposed_.cols());
+        multiply<Scalar>({delta.data(), place.rows, samples, samples, 1},
+                         transposed_.data(), product_.data(), product_.cols());
+        Eigen::Map<RowMajor>(gradient_.data() + place.weights, place.rows, place.cols) =
+            product_.leftCols(place.cols).matrix();
         gradient_.segment(place.bias, place.rows) = delta.rowwise().sum();
         if (layer == 0) break;
         Block& before = deltas_[layer - 1];
-        before.resize(place.cols, delta.cols());
-        before.matrix().noalias() = weights(layer).transpose() * delta.matrix();
+        before.resize(place.cols, samples);
+        multiply<Scalar>(
+            {parameters_.data() + place.weights, place.cols, place.rows, 1, place.cols},
+            delta.data(), before.data(), samples);
         before *= slopes_[layer - 1];
     }
     return error;

@@ -28,7 +28,8 @@ class Network {
     const Vector& is_weight() const { return is_weight_; }
 
     /// Outputs [outputs x samples], valid until the next call.
-    const Block& forward(const Block& inputs);
+    using Outputs = typename Block::ConstColsBlockXpr;
+    Outputs forward(const Block& inputs);
     /// Mean of mask (outputs - targets)^2 over the entries with mask 1; its derivative by
     /// the parameters is in gradient(). A block without any entry gives 0.
     Scalar backward(const Block& inputs, const Block& targets, const Block& mask);
@@ -44,15 +45,19 @@ class Network {
             bias;  ///< Sizes and offsets in the flat vector.
     };
     Eigen::Map<const RowMajor> weights(std::size_t layer) const;
-    void add_forward(std::size_t layer, const Block& inputs);
+    void add_forward(std::size_t layer);
 
     std::vector<Place> places_;
     Vector parameters_;
     Vector gradient_;
     Vector is_weight_;
+    // Columns of these are padded, with samples whose inputs are zero.
+    Block inputs_;
     std::vector<Block> activations_;  ///< By layer; the last holds the outputs.
     std::vector<Block> slopes_;       ///< d(activation)/d(sum) of the hidden layers.
     std::vector<Block> deltas_;       ///< d(error)/d(sum)
+    Block transposed_;                ///< A layer's inputs, one row a sample.
+    Block product_;                   ///< A layer's gradient, padded.
 };
 
 extern template class Network<float>;

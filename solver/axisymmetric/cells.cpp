@@ -9,7 +9,6 @@
 namespace taylorcal::axisymmetric {
 namespace {
 
-using material::lane_count;
 constexpr std::size_t lanes = lane_count<float>;
 
 /// What a cell did during its step.
@@ -64,7 +63,7 @@ void set_lanes(material::BlockInput<float>& input, std::size_t first, std::size_
 }
 
 /// Sum of `count` lanes (a power of two), by halves.
-double sum_of(material::Lanes<float> values, std::size_t first, std::size_t count) {
+double sum_of(Lanes<float> values, std::size_t first, std::size_t count) {
     std::array<double, lanes> part;
     for (std::size_t lane = 0; lane < lanes; ++lane)
         part[lane] = static_cast<double>(values[lane]);
@@ -106,7 +105,8 @@ double artificial_viscosity(const Body& body, const Motion& motion, double densi
             body.numerics.quadratic_viscosity * closing);
 }
 
-std::string trouble(const Body& body, std::size_t cell, const std::string& what) {
+[[gnu::noinline]] std::string trouble(const Body& body, std::size_t cell,
+                                      const std::string& what) {
     const auto& corners = body.mesh.cells[cell];
     return fmt::format("{} at r = {:.3f} mm, z = {:.3f} mm after {:.2f} us", what,
                        1e3 * body.radius[corners[0]], 1e3 * body.height[corners[0]],
@@ -144,9 +144,7 @@ void close_energy(Body& body, std::size_t c, const Motion& m, const GrainSum& me
         cell_volume;
 }
 
-}  // namespace
-
-std::string update_cells(Body& body, std::size_t first, std::size_t last) {
+std::string update_group(Body& body, std::size_t first, std::size_t last) {
     const std::size_t grains = static_cast<std::size_t>(body.numerics.grains_per_point);
     const std::size_t blocks_a_cell = grains > lanes ? grains / lanes : 1;
     const std::size_t grains_a_block = std::min(grains, lanes);
@@ -200,6 +198,14 @@ std::string update_cells(Body& body, std::size_t first, std::size_t last) {
     body.clock.mark(impact::Phase::forces);
     body.cell_updates += static_cast<std::int64_t>(last - first);
     return {};
+}
+
+}  // namespace
+
+std::string update_cells(Body& body, std::size_t first, std::size_t last) {
+    std::string trouble;
+    simd::run([&](auto) { trouble = update_group(body, first, last); });
+    return trouble;
 }
 
 }  // namespace taylorcal::axisymmetric

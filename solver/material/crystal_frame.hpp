@@ -1,6 +1,6 @@
 #pragma once
 
-#include "solver/material/lanes.hpp"
+#include "common/lanes.hpp"
 
 namespace taylorcal::material {
 
@@ -9,9 +9,8 @@ namespace taylorcal::material {
 // slip_systems.hpp.
 
 /// R <- exp(W dt) R with W = antisym(L), by the Cayley map, which is a rotation exactly.
-template <class Real>
-inline void rotate_with_spin(const Lanes<Real> (&l)[9], Real dt, Lanes<Real> (&r)[9]) {
-    using V = Lanes<Real>;
+template <class V, class Real>
+inline void rotate_with_spin(const V (&l)[9], Real dt, V (&r)[9]) {
     // Axial vector of W dt/2.
     const V a0 = (l[7] - l[5]) * (dt / 4);
     const V a1 = (l[2] - l[6]) * (dt / 4);
@@ -32,10 +31,9 @@ inline void rotate_with_spin(const Lanes<Real> (&l)[9], Real dt, Lanes<Real> (&r
 }
 
 /// dev(D) in the crystal frame, and div v.
-template <class Real>
-inline void strain_rate_in_crystal(const Lanes<Real> (&r)[9], const Lanes<Real> (&l)[9],
-                                   Lanes<Real> (&rate)[5], Lanes<Real>& dilatation) {
-    using V = Lanes<Real>;
+template <class V>
+inline void strain_rate_in_crystal(const V (&r)[9], const V (&l)[9], V (&rate)[5],
+                                   V& dilatation) {
     dilatation = l[0] + l[4] + l[8];
     const V xy = (l[1] + l[3]) / 2;
     const V xz = (l[2] + l[6]) / 2;
@@ -46,14 +44,14 @@ inline void strain_rate_in_crystal(const Lanes<Real> (&r)[9], const Lanes<Real> 
         t[3 + j] = xy * r[j] + l[4] * r[3 + j] + yz * r[6 + j];
         t[6 + j] = xz * r[j] + yz * r[3 + j] + l[8] * r[6 + j];
     }
-    const auto entry = [&](int i, int j) {
+    const auto entry = [&](int i, int j) -> V {
         return r[i] * t[j] + r[3 + i] * t[3 + j] + r[6 + i] * t[6 + j];
     };
     const V xx = entry(0, 0);
     const V yy = entry(1, 1);
     const V zz = entry(2, 2);
-    constexpr Real root2 = Real(1.41421356237309504880);
-    constexpr Real root6 = Real(2.44948974278317809820);
+    constexpr double root2 = 1.41421356237309504880;
+    constexpr double root6 = 2.44948974278317809820;
     rate[0] = (xx - yy) / root2;
     rate[1] = (2 * zz - xx - yy) / root6;
     rate[2] = root2 * entry(0, 1);
@@ -62,12 +60,10 @@ inline void strain_rate_in_crystal(const Lanes<Real> (&r)[9], const Lanes<Real> 
 }
 
 /// A crystal-frame deviator as lab-frame tensor: xx yy zz xy xz yz.
-template <class Real>
-inline void deviator_in_lab(const Lanes<Real> (&r)[9], const Lanes<Real> (&a)[5],
-                            Lanes<Real> (&lab)[6]) {
-    using V = Lanes<Real>;
-    constexpr Real inverse_root2 = Real(0.70710678118654752440);
-    constexpr Real inverse_root6 = Real(0.40824829046386301637);
+template <class V>
+inline void deviator_in_lab(const V (&r)[9], const V (&a)[5], V (&lab)[6]) {
+    constexpr double inverse_root2 = 0.70710678118654752440;
+    constexpr double inverse_root6 = 0.40824829046386301637;
     const V xx = a[0] * inverse_root2 - a[1] * inverse_root6;
     const V yy = -a[0] * inverse_root2 - a[1] * inverse_root6;
     const V zz = 2 * inverse_root6 * a[1];
@@ -80,7 +76,7 @@ inline void deviator_in_lab(const Lanes<Real> (&r)[9], const Lanes<Real> (&a)[5]
         t[3 * i + 1] = r[3 * i] * xy + r[3 * i + 1] * yy + r[3 * i + 2] * yz;
         t[3 * i + 2] = r[3 * i] * xz + r[3 * i + 1] * yz + r[3 * i + 2] * zz;
     }
-    const auto entry = [&](int i, int j) {
+    const auto entry = [&](int i, int j) -> V {
         return t[3 * i] * r[3 * j] + t[3 * i + 1] * r[3 * j + 1] +
                t[3 * i + 2] * r[3 * j + 2];
     };

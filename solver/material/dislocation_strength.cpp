@@ -34,20 +34,15 @@ constexpr std::array<std::array<Real, 5>, slip_system_count> schmid = [] {
     return rounded;
 }();
 
-/// M^d : e.
-template <class Real, std::size_t d>
-inline Lanes<Real> resolve(const Lanes<Real> (&e)[5]) {
-    constexpr std::array<Real, 5> m = schmid<Real>[d];
-    Lanes<Real> sum = {};
-    for (std::size_t k = 0; k < 5; ++k)
-        if (m[k] != 0) sum += m[k] * e[k];
-    return sum;
+template <class V>
+inline V resolve(const std::array<typename V::Lane, 5>& m, const V (&e)[5]) {
+    return m[0] * e[0] + m[1] * e[1] + m[2] * e[2] + m[3] * e[3] + m[4] * e[4];
 }
 
-template <class Real>
-double largest_lane(const Lanes<Real>& values) {
+template <class V>
+double largest_lane(const V& values) {
     double largest = 0;
-    for (std::size_t lane = 0; lane < lane_count<Real>; ++lane)
+    for (std::size_t lane = 0; lane < lane_count<typename V::Lane>; ++lane)
         largest = std::max(largest, static_cast<double>(values[lane]));
     return largest;
 }
@@ -57,8 +52,8 @@ constexpr Real strain_tolerance = sizeof(Real) == 4 ? Real(5e-7) : Real(1e-12);
 
 }  // namespace
 
-template <class Real>
-DislocationStrength<Real>::DislocationStrength(
+template <class Real, simd::Variant variant>
+DislocationStrength<Real, variant>::DislocationStrength(
     const Parameters& parameters, const std::vector<Eigen::Quaterniond>& orientations)
     : parameters_(parameters) {
     constexpr std::size_t lanes = lane_count<Real>;
@@ -70,36 +65,33 @@ DislocationStrength<Real>::DislocationStrength(
             const std::size_t grain = std::min(n * lanes + lane, orientations.size() - 1);
             const Eigen::Matrix3d matrix =
                 orientations[grain].normalized().toRotationMatrix();
-            for (int i = 0; i < 9; ++i) {
+            for (int i = 0; i < 9; ++i)
                 block.orientation[i][lane] = static_cast<Real>(matrix(i / 3, i % 3));
-            }
         }
         for (std::size_t d = 0; d < slip_system_count; ++d) {
-            block.mobile[d] += static_cast<Real>(parameters.rho_mobile_initial);
-            block.immobile[d] += static_cast<Real>(parameters.rho_immobile_initial);
+            block.mobile[d] = parameters.rho_mobile_initial;
+            block.immobile[d] = parameters.rho_immobile_initial;
         }
-        block.shear_modulus += 1;
+        block.shear_modulus = 1;
         block.next_substep = std::numeric_limits<double>::infinity();
     }
 }
 
 /// Ys = Ys0 + AI G b sqrt(sum of rhoI), Eq. 20 [Pa].
-template <class Real>
-typename DislocationStrength<Real>::V DislocationStrength<Real>::hardening(
-    const Block& block, V shear_modulus) const {
+template <class Real, simd::Variant variant>
+auto DislocationStrength<Real, variant>::hardening(const Block& block,
+                                                   const V& shear_modulus) const -> V {
     V total = block.immobile[0];
     for (std::size_t d = 1; d < slip_system_count; ++d) total += block.immobile[d];
-    const auto scale =
-        static_cast<Real>(parameters_.hardening_coefficient * parameters_.burgers_vector);
-    return static_cast<Real>(parameters_.initial_yield_stress) +
-           scale * shear_modulus * lane_sqrt(total);
+    const double scale = parameters_.hardening_coefficient * parameters_.burgers_vector;
+    return parameters_.initial_yield_stress + scale * shear_modulus * lane_sqrt(total);
 }
 
 /// Moves the block by the step's duration, shortened until no system multiplies too much,
 /// and asks for the next duration.
-template <class Real>
-void DislocationStrength<Real>::substep(Block& block, Step& step, double shortest,
-                                        Slip& slip) const {
+template <class Real, simd::Variant variant>
+void DislocationStrength<Real, variant>::substep(Block& block, Step& step,
+                                                 double shortest, Slip& slip) const {
     slip = Slip{};
     if (!block.slips && is_elastic(block, step)) return rest(block, step);
     if (block.rest_time > 0) end_rest(block);
@@ -107,7 +99,7 @@ void DislocationStrength<Real>::substep(Block& block, Step& step, double shortes
     for (;;) {
         solve_stress(block, step, slip, outcome);
         evolve_densities(block, step, slip, outcome);
-        const double excess = largest_lane<Real>(outcome.growth) / largest_growth<Real>;
+        const double excess = largest_lane(outcome.growth) / largest_growth<Real>;
         const auto duration = static_cast<double>(step.duration);
         block.next_substep = duration / std::max(excess, 0.5);
         if (!(excess > 2) || duration <= shortest * (1 + 1e-6))
@@ -117,23 +109,29 @@ void DislocationStrength<Real>::substep(Block& block, Step& step, double shortes
     }
 }
 
-template <class Real>
-void DislocationStrength<Real>::update(std::size_t block_index,
-                                       const BlockInput<Real>& input,
-                                       BlockOutput<Real>& output) {
-    Block& block = blocks_[block_index];
+template <class Real, simd::Variant variant>
+void DislocationStrength<Real, variant>::update(std::size_t block,
+                                                const BlockInput<Real>& input,
+                                                BlockOutput<Real>& output) {
+    simd::on<variant>([&] { advance(blocks_[block], input, output); });
+}
+
+template <class Real, simd::Variant variant>
+void DislocationStrength<Real, variant>::advance(Block& block,
+                                                 const BlockInput<Real>& input,
+                                                 BlockOutput<Real>& output) const {
     Step step;
+    V gradient[9];
+    for (int i = 0; i < 9; ++i) gradient[i] = input.velocity_gradient[i];
     // The lattice at mid step sees the velocity gradient; the stress answers at the end.
     const Real half_step = input.time_step / 2;
-    rotate_with_spin<Real>(input.velocity_gradient, half_step, block.orientation);
-    strain_rate_in_crystal<Real>(block.orientation, input.velocity_gradient, step.rate,
-                                 step.dilatation);
-    rotate_with_spin<Real>(input.velocity_gradient, half_step, block.orientation);
+    rotate_with_spin(gradient, half_step, block.orientation);
+    strain_rate_in_crystal(block.orientation, gradient, step.rate, step.dilatation);
+    rotate_with_spin(gradient, half_step, block.orientation);
     step.shear_modulus = input.shear_modulus;
-    step.sound_speed = lane_sqrt(input.shear_modulus / input.density);
-    step.drag = static_cast<Real>(parameters_.drag_constant) +
-                static_cast<Real>(parameters_.drag_slope) * input.temperature;
-    block.shear_modulus = input.shear_modulus;
+    step.sound_speed = lane_sqrt(step.shear_modulus / V(input.density));
+    step.drag = parameters_.drag_constant + parameters_.drag_slope * V(input.temperature);
+    block.shear_modulus = step.shear_modulus;
     step.duration = input.time_step;
 
     V plastic_before[5];
@@ -143,7 +141,7 @@ void DislocationStrength<Real>::update(std::size_t block_index,
     const double total = static_cast<double>(input.time_step);
     const double shortest = total / most_substeps;
     const double longest =
-        largest_strain_increment / std::sqrt(largest_lane<Real>(square_rate));
+        largest_strain_increment / std::sqrt(largest_lane(square_rate));
     double left = total;
     V work = {};
     while (left > 0) {
@@ -167,27 +165,29 @@ void DislocationStrength<Real>::update(std::size_t block_index,
     output.plastic_rate =
         lane_sqrt(square * static_cast<Real>(2.0 / 3)) / input.time_step;
 
-    V stress[5];
+    V stress[5], deviator[6];
     for (int k = 0; k < 5; ++k) stress[k] = 2 * step.shear_modulus * block.elastic[k];
-    deviator_in_lab<Real>(block.orientation, stress, output.stress_deviator);
+    deviator_in_lab(block.orientation, stress, deviator);
+    for (int c = 0; c < 6; ++c) output.stress_deviator[c] = deviator[c];
 }
 
 /// Whether no system of any grain reaches its threshold if the step is elastic.
-template <class Real>
-bool DislocationStrength<Real>::is_elastic(const Block& block, const Step& step) const {
+template <class Real, simd::Variant variant>
+bool DislocationStrength<Real, variant>::is_elastic(const Block& block,
+                                                    const Step& step) const {
     V trial[5];
     for (int k = 0; k < 5; ++k)
         trial[k] = block.elastic[k] + step.duration * step.rate[k];
     V largest = {};
-    for_each_slip_system(
-        [&](auto d) { largest = lane_max(largest, lane_abs(resolve<Real, d>(trial))); });
+    for (const auto& m : schmid<Real>)
+        largest = lane_max(largest, lane_abs(resolve(m, trial)));
     const V threshold = hardening(block, step.shear_modulus) / 2;
     return !any_lane(2 * step.shear_modulus * largest > threshold);
 }
 
 /// An elastic step: what the dislocations do meanwhile is left to the end of the rest.
-template <class Real>
-void DislocationStrength<Real>::rest(Block& block, const Step& step) const {
+template <class Real, simd::Variant variant>
+void DislocationStrength<Real, variant>::rest(Block& block, const Step& step) const {
     for (int k = 0; k < 5; ++k) block.elastic[k] += step.duration * step.rate[k];
     block.rest_dilatation += step.duration * step.dilatation;
     block.rest_time += static_cast<double>(step.duration);
@@ -198,12 +198,11 @@ void DislocationStrength<Real>::rest(Block& block, const Step& step) const {
 /// Without slip, Eqs. 15-16 leave immobilization and dilution. The former keeps
 /// S = rhoI + rhoD - rhoDfree, so that drhoI/dt = VI (S - rhoI) sqrt(rhoI), which has a
 /// closed form.
-template <class Real>
-void DislocationStrength<Real>::end_rest(Block& block) const {
-    const auto rho_free = static_cast<Real>(parameters_.rho_mobile_free);
-    const auto half_path =
-        static_cast<Real>(parameters_.immobilization_velocity * block.rest_time / 2);
-    const V least = broadcast<Real>(1);
+template <class Real, simd::Variant variant>
+void DislocationStrength<Real, variant>::end_rest(Block& block) const {
+    const V rho_free = parameters_.rho_mobile_free;
+    const V half_path = parameters_.immobilization_velocity * block.rest_time / 2;
+    const V least = 1;
     const V dilution =
         lane_map(-block.rest_dilatation, [](Real x) { return std::exp(x); });
     for (std::size_t d = 0; d < slip_system_count; ++d) {
@@ -223,10 +222,11 @@ void DislocationStrength<Real>::end_rest(Block& block) const {
 
 /// Backward Euler for e: e + dt sum_d M^d b rhoD V(e) sign = e_old + dt dev(D), Eqs.
 /// 4-14.
-template <class Real>
-void DislocationStrength<Real>::solve_stress(Block& block, const Step& step, Slip& slip,
-                                             Outcome& outcome) const {
-    const V dt = broadcast<Real>(step.duration);
+template <class Real, simd::Variant variant>
+void DislocationStrength<Real, variant>::solve_stress(Block& block, const Step& step,
+                                                      Slip& slip,
+                                                      Outcome& outcome) const {
+    const V dt = step.duration;
     const auto b = static_cast<Real>(parameters_.burgers_vector);
     const V two_g = 2 * step.shear_modulus;
     const V resistance = hardening(block, step.shear_modulus);
@@ -241,7 +241,7 @@ void DislocationStrength<Real>::solve_stress(Block& block, const Step& step, Sli
         e[k] = block.elastic[k];
     }
     V slip_strain[5];
-    LineSearch<Real> search;
+    LineSearch<V> search;
     for (int iteration = 0; iteration < largest_iteration_count; ++iteration) {
         const bool careful = iteration >= first_careful_iteration;
         if (iteration == first_careful_iteration)
@@ -249,14 +249,14 @@ void DislocationStrength<Real>::solve_stress(Block& block, const Step& step, Sli
         V jacobian[15] = {};  // lower triangle of I + dt 2G sum_d rhoD dV/dX b^2 M M
         V residual[5];
         for (int k = 0; k < 5; ++k) slip_strain[k] = V{};
-        for_each_slip_system([&](auto d) {
-            constexpr std::array<Real, 5> m = schmid<Real>[d];
-            const V resolved = two_g * resolve<Real, d>(e);
+        for (std::size_t d = 0; d < slip_system_count; ++d) {
+            const std::array<Real, 5>& m = schmid<Real>[d];
+            const V resolved = two_g * resolve(m, e);
             const V excess = lane_max(lane_abs(resolved) - threshold, V{});
             const V zeta = scale * excess;
             V steepness, z;
             if (careful) {
-                z = drag_root(zeta);
+                find_drag_root(zeta, z);
                 steepness = drag_steepness(z);
             } else {
                 steepness = drag_steepness(block.drag_root[d]);
@@ -267,18 +267,18 @@ void DislocationStrength<Real>::solve_stress(Block& block, const Step& step, Sli
             const V rate = b * block.mobile[d] * speed;
             slip.speed[d] = speed;
             slip.force[d] = b * excess;
-            block.drag_root[d] = excess > 0 ? z : V{};
+            block.drag_root[d] = lane_select(excess > 0, z, V{});
             V slope = slope_scale * block.mobile[d] * steepness * contraction *
                       contraction * contraction;
-            slope = excess > 0 ? slope : V{};
-            const V strain = dt * (resolved < 0 ? -rate : rate);
+            slope = lane_select(excess > 0, slope, V{});
+            const V strain = dt * lane_select(resolved < 0, -rate, rate);
             for (std::size_t i = 0; i < 5; ++i) {
-                if (m[i] == 0) continue;
                 slip_strain[i] += m[i] * strain;
+                const V row = m[i] * slope;
                 for (std::size_t j = 0; j <= i; ++j)
-                    if (m[j] != 0) jacobian[i * (i + 1) / 2 + j] += (m[i] * m[j]) * slope;
+                    jacobian[i * (i + 1) / 2 + j] += row * m[j];
             }
-        });
+        }
         for (int k = 0; k < 5; ++k) {
             jacobian[k * (k + 1) / 2 + k] += 1;
             residual[k] = trial[k] - slip_strain[k] - e[k];
@@ -300,21 +300,19 @@ void DislocationStrength<Real>::solve_stress(Block& block, const Step& step, Sli
 /// Generation at a given slip rate falls as 1/rhoD (X = B gamma/(b rhoD)); integrated
 /// exactly it is rhoD -> sqrt(rhoD^2 + 2 rhoD QD dt), which holds over steps in which
 /// rhoD doubles.
-template <class Real>
-void DislocationStrength<Real>::evolve_densities(const Block& block, const Step& step,
-                                                 const Slip& slip,
-                                                 Outcome& outcome) const {
+template <class Real, simd::Variant variant>
+void DislocationStrength<Real, variant>::evolve_densities(const Block& block,
+                                                          const Step& step,
+                                                          const Slip& slip,
+                                                          Outcome& outcome) const {
     const Parameters& p = parameters_;
-    const V dt = broadcast<Real>(step.duration);
-    const auto generation =
-        static_cast<Real>((1 - p.taylor_quinney) /
-                          (p.dislocation_energy * electron_volt) * p.burgers_vector);
-    const auto ka_b = static_cast<Real>(p.annihilation_coefficient * p.burgers_vector);
-    const auto vi = static_cast<Real>(p.immobilization_velocity);
-    const auto rho_free = static_cast<Real>(p.rho_mobile_free);
-    const auto line_energy =
-        static_cast<Real>(p.dislocation_energy * electron_volt / p.burgers_vector);
-    const V free_density = broadcast(rho_free);
+    const V dt = step.duration;
+    const V generation = (1 - p.taylor_quinney) / (p.dislocation_energy * electron_volt) *
+                         p.burgers_vector;
+    const V ka_b = p.annihilation_coefficient * p.burgers_vector;
+    const V vi = p.immobilization_velocity;
+    const V rho_free = p.rho_mobile_free;
+    const V line_energy = p.dislocation_energy * electron_volt / p.burgers_vector;
     V annihilation = {};
     outcome.growth = V{};
     for (std::size_t d = 0; d < slip_system_count; ++d) {
@@ -331,11 +329,10 @@ void DislocationStrength<Real>::evolve_densities(const Block& block, const Step&
                                 lane_inverse(1 + dt * (sweep * next + step.dilatation));
         annihilation += sweep * next * (2 * next + 2 * next_immobile);
         outcome.mobile[d] = next;
-        outcome.immobile[d] = lane_max(next_immobile, broadcast<Real>(1));
+        outcome.immobile[d] = lane_max(next_immobile, V(1));
         // Systems emptied by annihilation refill from rhoDfree, which decides nothing.
-        outcome.growth =
-            lane_max(outcome.growth,
-                     (next - mobile) * lane_inverse(lane_max(mobile, free_density)));
+        outcome.growth = lane_max(
+            outcome.growth, (next - mobile) * lane_inverse(lane_max(mobile, rho_free)));
     }
     outcome.annihilated_energy =
         block.annihilated_energy + dt * line_energy * annihilation;
@@ -343,9 +340,9 @@ void DislocationStrength<Real>::evolve_densities(const Block& block, const Step&
 
 /// The plastic strain is what the elastic strain left of the total, and the work is done
 /// on that strain, so that both add up whatever the last iteration of the stress changed.
-template <class Real>
-void DislocationStrength<Real>::accept(const Outcome& outcome, const Step& step,
-                                       Block& block, Slip& slip) const {
+template <class Real, simd::Variant variant>
+void DislocationStrength<Real, variant>::accept(const Outcome& outcome, const Step& step,
+                                                Block& block, Slip& slip) const {
     V work = {};
     for (int k = 0; k < 5; ++k) {
         const V increment =
@@ -364,10 +361,10 @@ void DislocationStrength<Real>::accept(const Outcome& outcome, const Step& step,
     block.slips = any_lane(fastest > 0);
 }
 
-template <class Real>
-GrainState DislocationStrength<Real>::state(std::size_t grain) const {
+template <class Real, simd::Variant variant>
+GrainState DislocationStrength<Real, variant>::state(std::size_t grain) const {
     Block block = blocks_[grain / lane_count<Real>];
-    end_rest(block);
+    simd::on<variant>([&] { end_rest(block); });
     const std::size_t lane = grain % lane_count<Real>;
     GrainState state;
     double plastic = 0;
@@ -395,7 +392,18 @@ GrainState DislocationStrength<Real>::state(std::size_t grain) const {
     return state;
 }
 
-template class DislocationStrength<float>;
-template class DislocationStrength<double>;
+template <class Real>
+std::unique_ptr<Strength<Real>> make_dislocation_strength(
+    const Parameters& parameters, const std::vector<Eigen::Quaterniond>& orientations) {
+    return simd::with_variant([&](auto variant) -> std::unique_ptr<Strength<Real>> {
+        return std::make_unique<DislocationStrength<Real, variant.value>>(parameters,
+                                                                          orientations);
+    });
+}
+
+template std::unique_ptr<Strength<float>> make_dislocation_strength(
+    const Parameters&, const std::vector<Eigen::Quaterniond>&);
+template std::unique_ptr<Strength<double>> make_dislocation_strength(
+    const Parameters&, const std::vector<Eigen::Quaterniond>&);
 
 }  // namespace taylorcal::material

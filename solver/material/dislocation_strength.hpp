@@ -18,7 +18,7 @@ namespace taylorcal::material {
 /// rotation terms of Eqs. 5-7 and 10 vanish, S = 2 G e with e = dev(u) - w, and
 /// de/dt = dev(D) - wdot. A step solves the backward-Euler equations of e together with
 /// the drag roots of the twelve systems by Newton's method.
-template <class Real>
+template <class Real, simd::Variant variant>
 class DislocationStrength final : public Strength<Real> {
   public:
     DislocationStrength(const Parameters& parameters,
@@ -28,7 +28,7 @@ class DislocationStrength final : public Strength<Real> {
     GrainState state(std::size_t grain) const override;
 
   private:
-    using V = Lanes<Real>;
+    using V = Registers<Real, variant>;
 
     /// One block of grains.
     struct Block {
@@ -72,6 +72,8 @@ class DislocationStrength final : public Strength<Real> {
         V growth;  ///< of the mobile density that grew most, above one
     };
 
+    void advance(Block& block, const BlockInput<Real>& input,
+                 BlockOutput<Real>& output) const;
     bool is_elastic(const Block& block, const Step& step) const;
     void rest(Block& block, const Step& step) const;
     void end_rest(Block& block) const;
@@ -79,11 +81,16 @@ class DislocationStrength final : public Strength<Real> {
     void evolve_densities(const Block& block, const Step& step, const Slip& slip,
                           Outcome& outcome) const;
     void accept(const Outcome& outcome, const Step& step, Block& block, Slip& slip) const;
-    V hardening(const Block& block, V shear_modulus) const;
+    V hardening(const Block& block, const V& shear_modulus) const;
     void substep(Block& block, Step& step, double shortest, Slip& slip) const;
 
     Parameters parameters_;
     std::vector<Block> blocks_;
 };
+
+/// The dislocation model, for what the machine runs.
+template <class Real>
+std::unique_ptr<Strength<Real>> make_dislocation_strength(
+    const Parameters& parameters, const std::vector<Eigen::Quaterniond>& orientations);
 
 }  // namespace taylorcal::material

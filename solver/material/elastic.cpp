@@ -8,25 +8,19 @@ namespace taylorcal::material {
 
 namespace {
 
-template <class Real>
-class Elastic final : public HypoelasticStrength<Real> {
-  public:
-    using HypoelasticStrength<Real>::HypoelasticStrength;
-
-  protected:
-    Lanes<Real> plastic_increment(const YieldQuestion<Real>&) const override {
-        return Lanes<Real>{};
+struct ElasticRule {
+    template <class V>
+    V plastic_increment(const YieldQuestion<V>&) const {
+        return V{};
     }
-    double yield_stress(double) const override {
-        return std::numeric_limits<double>::infinity();
-    }
+    double yield_stress(double) const { return std::numeric_limits<double>::infinity(); }
 };
 
 }  // namespace
 
 template <class Real>
 std::unique_ptr<Strength<Real>> make_elastic(const Parameters&, std::size_t grains) {
-    return std::make_unique<Elastic<Real>>(grains);
+    return make_hypoelastic<Real>(ElasticRule{}, grains);
 }
 
 template std::unique_ptr<Strength<float>> make_elastic(const Parameters&, std::size_t);

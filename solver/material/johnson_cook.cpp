@@ -9,17 +9,15 @@ namespace taylorcal::material {
 
 namespace {
 
-template <class Real>
-class JohnsonCook final : public HypoelasticStrength<Real> {
+class JohnsonCookRule {
   public:
-    JohnsonCook(const Parameters& parameters, std::size_t grains)
-        : HypoelasticStrength<Real>(grains), p_(parameters) {}
+    explicit JohnsonCookRule(const Parameters& parameters) : p_(parameters) {}
 
-  protected:
-    Lanes<Real> plastic_increment(const YieldQuestion<Real>& question) const override {
-        Lanes<Real> increment{};
-        for (std::size_t k = 0; k < lane_count<Real>; ++k) {
-            increment[k] = static_cast<Real>(lane_increment(
+    template <class V>
+    V plastic_increment(const YieldQuestion<V>& question) const {
+        V increment;
+        for (std::size_t k = 0; k < lane_count<typename V::Lane>; ++k) {
+            increment[k] = static_cast<typename V::Lane>(lane_increment(
                 static_cast<double>(question.trial_stress[k]),
                 static_cast<double>(question.plastic_strain[k]),
                 thermal_factor(static_cast<double>(question.temperature[k])),
@@ -28,7 +26,7 @@ class JohnsonCook final : public HypoelasticStrength<Real> {
         }
         return increment;
     }
-    double yield_stress(double plastic_strain) const override {
+    double yield_stress(double plastic_strain) const {
         return p_.jc_a + p_.jc_b * std::pow(plastic_strain, p_.jc_n);
     }
 
@@ -76,7 +74,7 @@ class JohnsonCook final : public HypoelasticStrength<Real> {
 template <class Real>
 std::unique_ptr<Strength<Real>> make_johnson_cook(const Parameters& parameters,
                                                   std::size_t grains) {
-    return std::make_unique<JohnsonCook<Real>>(parameters, grains);
+    return make_hypoelastic<Real>(JohnsonCookRule(parameters), grains);
 }
 
 template std::unique_ptr<Strength<float>> make_johnson_cook(const Parameters&,

@@ -19,7 +19,7 @@ std::unique_ptr<Strength<Real>> make_strength(
         case StrengthModel::dislocation:
             break;
     }
-    return std::make_unique<DislocationStrength<Real>>(parameters, orientations);
+    return make_dislocation_strength<Real>(parameters, orientations);
 }
 
 template std::unique_ptr<Strength<float>> make_strength(

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "solver/material/lanes.hpp"
+#include "common/lanes.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -22,8 +22,8 @@ inline Vector drag_root_step(Vector zeta, Vector z, Vector steepness) {
 /// The root itself, z = (2/sqrt 3) sinh(asinh(1.5 sqrt 3 zeta)/3); lane by lane, and kept
 /// out of the loops that seldom need it.
 template <class Vector>
-[[gnu::noinline, gnu::cold]] Vector drag_root(Vector zeta) {
-    return lane_map(zeta, [](auto x) {
+[[gnu::noinline, gnu::cold]] void find_drag_root(const Vector& zeta, Vector& z) {
+    z = lane_map(zeta, [](auto x) {
         using Real = decltype(x);
         constexpr double root_3 = std::numbers::sqrt3;
         return static_cast<Real>(2 / root_3) *

@@ -3,8 +3,6 @@
 #include <array>
 #include <cstddef>
 #include <numbers>
-#include <type_traits>
-#include <utility>
 
 #include <Eigen/Core>
 
@@ -21,8 +19,7 @@ Deviator deviator_from_tensor(const Eigen::Matrix3d& tensor);
 Eigen::Matrix3d tensor_from_deviator(const Deviator& deviator);
 
 /// Schmid tensors M^d = sym(bhat x n) of the twelve fcc systems {111}<110> in the crystal
-/// frame, as deviators; |M^d|^2 = 1/2 (Eq. 8). Known to the compiler, which leaves out
-/// the third of the components that vanish.
+/// frame, as deviators; |M^d|^2 = 1/2 (Eq. 8).
 inline constexpr std::array<Deviator, slip_system_count> schmid_tensors = [] {
     constexpr int planes[4][3] = {{1, 1, 1}, {-1, 1, 1}, {1, -1, 1}, {1, 1, -1}};
     constexpr int directions[6][3] = {{0, 1, -1}, {1, 0, -1}, {1, -1, 0},
@@ -42,14 +39,5 @@ inline constexpr std::array<Deviator, slip_system_count> schmid_tensors = [] {
     }
     return made;
 }();
-
-/// Calls `function` with each system's number as a compile-time constant.
-template <class Function>
-inline void for_each_slip_system(const Function& function) {
-    [&]<std::size_t... d>(std::index_sequence<d...>) {
-        (function(std::integral_constant<std::size_t, d>{}), ...);
-    }
-    (std::make_index_sequence<slip_system_count>{});
-}
 
 }  // namespace taylorcal::material

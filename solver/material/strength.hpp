@@ -1,6 +1,6 @@
 #pragma once
 
-#include "solver/material/lanes.hpp"
+#include "common/lanes.hpp"
 #include "solver/material/parameters.hpp"
 
 #include <cstddef>
@@ -10,6 +10,11 @@
 #include <Eigen/Geometry>
 
 namespace taylorcal::material {
+
+// Blocks of grains are filled and read with these.
+using taylorcal::broadcast;
+using taylorcal::lane_count;
+using taylorcal::Lanes;
 
 /// What moves a block of grains during one step, lane by lane.
 template <class Real>

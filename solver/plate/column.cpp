@@ -113,10 +113,9 @@ std::string Column::advance(double step) {
         const double strain_rate = closing / (height - closing * step / 2);
         const double old_density = density_[c];
         density_[c] = cell_mass_[c] / height;
-        input.velocity_gradient[0] = material::broadcast(static_cast<float>(strain_rate));
-        input.density = material::broadcast(static_cast<float>(density_[c]));
-        input.temperature =
-            material::broadcast(static_cast<float>(thermo_[c].temperature));
+        input.velocity_gradient[0] = static_cast<float>(strain_rate);
+        input.density = static_cast<float>(density_[c]);
+        input.temperature = static_cast<float>(thermo_[c].temperature);
         input.shear_modulus = material::broadcast(static_cast<float>(
             material::shear_modulus(thermo_[c].bulk_modulus, parameters_.poisson_ratio)));
         strength_->update(c, input, output);

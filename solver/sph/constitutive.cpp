@@ -9,6 +9,7 @@ namespace {
 
 /// The least principal stretch from below: 1/sqrt of a bound on the largest eigenvalue of
 /// F^-1 F^-T, by the Frobenius norm of its square (at most 15 % short, for F = 1).
+template <class Vector>
 Vector least_stretch(const Vector (&inverse)[9]) {
     Vector a[6];  // F^-1 F^-T: xx yy zz xy xz yz
     const auto row_product = [&](int i, int j) -> Vector {
@@ -29,10 +30,11 @@ Vector least_stretch(const Vector (&inverse)[9]) {
     const Vector yz = a[3] * a[4] + a[1] * a[5] + a[5] * a[2];
     const Vector squares =
         xx * xx + yy * yy + zz * zz + 2 * (xy * xy + xz * xz + yz * yz);
-    return material::lane_inverse_sqrt(material::lane_sqrt(material::lane_sqrt(squares)));
+    return lane_inverse_sqrt(lane_sqrt(lane_sqrt(squares)));
 }
 
 /// Whether a particle's deformation has gone wrong. Written so that NaN counts as wrong.
+template <class Vector>
 bool is_tangled(const Vector& ratio, const Vector (&rate)[9], float step) {
     constexpr float least_ratio = 0.5f;  // copper at some 400 GPa
     constexpr float largest_ratio = 2;
@@ -41,16 +43,18 @@ bool is_tangled(const Vector& ratio, const Vector (&rate)[9], float step) {
     for (const Vector& component : rate) squares += component * component;
     const auto sound = (ratio > least_ratio) & (ratio < largest_ratio) &
                        (step * step * squares < largest_strain * largest_strain);
-    return material::any_lane(~sound);
+    return any_lane(~sound);
 }
 
 /// S : D for a deviator and a velocity gradient.
+template <class Vector>
 Vector power(const Vector (&s)[6], const Vector (&l)[9]) {
     return s[0] * l[0] + s[1] * l[4] + s[2] * l[8] + s[3] * (l[1] + l[3]) +
            s[4] * (l[2] + l[6]) + s[5] * (l[5] + l[7]);
 }
 
 /// J sigma F^-T, with sigma = S - p I.
+template <class Vector>
 void first_piola_kirchhoff(const Vector (&s)[6], const Vector& pressure, const Vector& j,
                            const Vector (&inverse)[9], Vector (&stress)[9]) {
     const Vector sigma[9] = {s[0] - pressure, s[3], s[4], s[3],
@@ -63,6 +67,7 @@ void first_piola_kirchhoff(const Vector (&s)[6], const Vector& pressure, const V
     for (Vector& component : stress) component *= j;
 }
 
+template <class Vector>
 double sum(const Vector& v) {
     double total = 0;
     for (std::size_t k = 0; k < block_size; ++k) total += static_cast<double>(v[k]);
@@ -97,20 +102,18 @@ double Constitutive::initialise(Particles& particles) const {
         for (std::size_t k = 0; k < block_size; ++k) {
             particles.energy[block * block_size + k] = rest_.energy;
         }
-        particles.temperature[block] =
-            material::broadcast(static_cast<float>(rest_.state.temperature));
-        particles.bulk_modulus[block] =
-            material::broadcast(static_cast<float>(rest_.state.bulk_modulus));
-        particles.density[block] = material::broadcast(static_cast<float>(rest_.density));
+        particles.temperature[block] = static_cast<float>(rest_.state.temperature);
+        particles.bulk_modulus[block] = static_cast<float>(rest_.state.bulk_modulus);
+        particles.density[block] = static_cast<float>(rest_.density);
     }
     const double modulus = rest_.state.bulk_modulus * (1 + 4.0 / 3 * shear_ratio_);
     return packing_.edge / std::sqrt(modulus / rest_.density);
 }
 
-Constitutive::Response Constitutive::strength_response(std::size_t index,
-                                                       const Particles& particles,
-                                                       const Vector (&gradient)[9],
-                                                       const Vector& density, double dt) {
+template <class Vector>
+Constitutive::Response<Vector> Constitutive::strength_response(
+    std::size_t index, const Particles& particles, const Vector (&gradient)[9],
+    const Vector& density, double dt) {
     const std::size_t block = packing_.active[index];
     material::BlockInput<float> input;
     std::copy(std::begin(gradient), std::end(gradient), input.velocity_gradient);
@@ -119,7 +122,7 @@ Constitutive::Response Constitutive::strength_response(std::size_t index,
     input.shear_modulus =
         static_cast<float>(shear_ratio_) * particles.bulk_modulus[block];
     input.time_step = static_cast<float>(dt);
-    Response mean{};
+    Response<Vector> mean{};
     for (std::size_t g = 0; g < grains_; ++g) {
         material::BlockOutput<float> output;
         strength_->update(index * grains_ + g, input, output);
@@ -133,6 +136,7 @@ Constitutive::Response Constitutive::strength_response(std::size_t index,
 }
 
 /// rho dE/dt = -P div v + heating, with the pressure averaged over the step.
+template <class Vector>
 void Constitutive::close_energy(Particles& particles, std::size_t block,
                                 const Vector& dilatation, const Vector& density,
                                 const Vector& heating, double dt) const {
@@ -157,6 +161,17 @@ void Constitutive::close_energy(Particles& particles, std::size_t block,
 
 double Constitutive::update(Particles& particles, const Reference& reference,
                             std::size_t index, double dt) {
+    double sound_time = 0;
+    simd::run([&](auto chosen) {
+        sound_time =
+            advance<Registers<float, chosen.value>>(particles, reference, index, dt);
+    });
+    return sound_time;
+}
+
+template <class Vector>
+double Constitutive::advance(Particles& particles, const Reference& reference,
+                             std::size_t index, double dt) {
     const auto step = static_cast<float>(dt);
     const auto rho0 = static_cast<float>(rest_.density);
     const auto edge = static_cast<float>(packing_.edge);
@@ -176,22 +191,22 @@ double Constitutive::update(Particles& particles, const Reference& reference,
     multiply(rate, inverse, gradient);
     const Vector ratio = invert(end, inverse);
     if (is_tangled(ratio, rate, step)) return 0;
-    const Vector density = rho0 * material::lane_inverse(ratio);
+    const Vector density = rho0 * lane_inverse(ratio);
     const Vector dilatation = gradient[0] + gradient[4] + gradient[8];
 
-    const Response response = strength_response(index, particles, gradient, density, dt);
+    const Response<Vector> response =
+        strength_response(index, particles, gradient, density, dt);
     const Vector spacing = edge * least_stretch(inverse);
-    const Vector sound_speed = material::lane_sqrt(
-        stiffness * particles.bulk_modulus[block] * material::lane_inverse(density));
-    const Vector closing = material::lane_max(-dilatation, Vector{});
+    const Vector sound_speed =
+        lane_sqrt(stiffness * particles.bulk_modulus[block] * lane_inverse(density));
+    const Vector closing = lane_max(-dilatation, Vector{});
     const Vector viscosity =
         density * spacing * closing *
         (quadratic_viscosity_ * spacing * closing + linear_viscosity_ * sound_speed);
 
     const Vector hourglass = particles.hourglass_heating[block];
     const Vector heating = taylor_quinney_ * response.plastic_power +
-                           viscosity * closing +
-                           hourglass * material::lane_inverse(middle_ratio);
+                           viscosity * closing + hourglass * lane_inverse(middle_ratio);
     close_energy(particles, block, dilatation, density, heating, dt);
 
     Vector mean[6];
@@ -213,7 +228,7 @@ double Constitutive::update(Particles& particles, const Reference& reference,
     work_.viscous += sum(volume_step * viscosity * closing);
     work_.hourglass += sum(volume * step * hourglass);
 
-    const Vector time = spacing * material::lane_inverse(sound_speed);
+    const Vector time = spacing * lane_inverse(sound_speed);
     double least_time = INFINITY;
     for (std::size_t k = 0; k < block_size; ++k) {
         least_time = std::min(least_time, static_cast<double>(time[k]));

@@ -48,14 +48,20 @@ class Constitutive {
     std::size_t grains_per_point() const { return grains_; }
 
   private:
+    template <class Vector>
+    double advance(Particles& particles, const Reference& reference, std::size_t index,
+                   double dt);
     /// What the strength answers for one block, averaged over its grains.
+    template <class Vector>
     struct Response {
         Vector deviator[6];
         Vector plastic_power;
     };
-    Response strength_response(std::size_t index, const Particles& particles,
-                               const Vector (&gradient)[9], const Vector& density,
-                               double dt);
+    template <class Vector>
+    Response<Vector> strength_response(std::size_t index, const Particles& particles,
+                                       const Vector (&gradient)[9], const Vector& density,
+                                       double dt);
+    template <class Vector>
     void close_energy(Particles& particles, std::size_t block, const Vector& dilatation,
                       const Vector& density, const Vector& heating, double dt) const;
 

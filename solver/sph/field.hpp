@@ -1,6 +1,6 @@
 #pragma once
 
-#include "solver/material/lanes.hpp"
+#include "common/lanes.hpp"
 #include "solver/sph/packing.hpp"
 
 #include <cstddef>
@@ -8,8 +8,8 @@
 
 namespace taylorcal::sph {
 
-using Vector = material::Lanes<float>;
-static_assert(material::lane_count<float> == block_size);
+using Vector = Lanes<float>;
+static_assert(lane_count<float> == block_size);
 
 /// One number a slot in single precision: by aligned blocks, or by slots from anywhere.
 class Field {
@@ -19,18 +19,12 @@ class Field {
 
     Vector& operator[](std::size_t block) { return blocks_[block]; }
     const Vector& operator[](std::size_t block) const { return blocks_[block]; }
-    const float* lanes() const { return reinterpret_cast<const float*>(blocks_.data()); }
-    float* lanes() { return reinterpret_cast<float*>(blocks_.data()); }
+    const float* lanes() const { return blocks_.data()->data(); }
+    float* lanes() { return blocks_.data()->data(); }
 
   private:
     std::vector<Vector> blocks_;
 };
-
-/// Sixteen consecutive slots that start anywhere.
-inline Vector load(const float* first) {
-    typedef float Unaligned __attribute__((vector_size(64), aligned(4)));
-    return *reinterpret_cast<const Unaligned*>(first);
-}
 
 /// A block of doubles rounded to single precision.
 inline Vector rounded(const double* first) {
@@ -40,6 +34,7 @@ inline Vector rounded(const double* first) {
 }
 
 /// C = A B of row-major 3x3 matrices, lane by lane.
+template <class Vector>
 inline void multiply(const Vector (&a)[9], const Vector (&b)[9], Vector (&c)[9]) {
     for (int i = 0; i < 3; ++i) {
         for (int j = 0; j < 3; ++j) {
@@ -50,12 +45,13 @@ inline void multiply(const Vector (&a)[9], const Vector (&b)[9], Vector (&c)[9])
 }
 
 /// The inverse of a row-major 3x3 matrix, lane by lane; returns its determinant.
+template <class Vector>
 inline Vector invert(const Vector (&a)[9], Vector (&inverse)[9]) {
     const Vector c0 = a[4] * a[8] - a[5] * a[7];
     const Vector c1 = a[5] * a[6] - a[3] * a[8];
     const Vector c2 = a[3] * a[7] - a[4] * a[6];
     const Vector determinant = a[0] * c0 + a[1] * c1 + a[2] * c2;
-    const Vector d = material::lane_inverse(determinant);
+    const Vector d = lane_inverse(determinant);
     inverse[0] = c0 * d;
     inverse[1] = (a[2] * a[7] - a[1] * a[8]) * d;
     inverse[2] = (a[1] * a[5] - a[2] * a[4]) * d;

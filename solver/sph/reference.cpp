@@ -137,22 +137,17 @@ void Reference::measure_moments(const Packing& packing) {
     }
 }
 
-namespace {
-
-/// A K^-1 for a row-major A and a symmetric K^-1.
-inline void times_symmetric(const Vector (&a)[9], const std::array<Field, 6>& k,
-                            std::size_t b, Vector (&c)[9]) {
-    for (int r = 0; r < 9; r += 3) {
-        c[r] = a[r] * k[0][b] + a[r + 1] * k[3][b] + a[r + 2] * k[4][b];
-        c[r + 1] = a[r] * k[3][b] + a[r + 1] * k[1][b] + a[r + 2] * k[5][b];
-        c[r + 2] = a[r] * k[4][b] + a[r + 1] * k[5][b] + a[r + 2] * k[2][b];
-    }
-}
-
-}  // namespace
-
 void Reference::velocity_gradient(Particles& particles, std::size_t block,
                                   const std::array<Field, 3>& velocity) const {
+    simd::run([&](auto chosen) {
+        velocity_gradient_in<Registers<float, chosen.value>>(particles, block, velocity);
+    });
+}
+
+template <class Vector>
+void Reference::velocity_gradient_in(Particles& particles, std::size_t block,
+                                     const std::array<Field, 3>& velocity) const {
+    const auto load = [](const float* first) { return Vector::load(first); };
     const float* volume = volume_.lanes();
     const float* place[3];
     const float* speed[3];
@@ -191,12 +186,13 @@ void Reference::velocity_gradient(Particles& particles, std::size_t block,
         particles.rate[c][block] = rate[c];
     }
     particles.hourglass_heating[block] =
-        viscosity_ * material::lane_max(squares - explained, Vector{});
+        viscosity_ * lane_max(squares - explained, Vector{});
 }
 
 namespace {
 
 /// All of the stencil is in step.
+template <class Vector>
 struct Alike {
     float own_pull;
     const float* speed[3];
@@ -211,11 +207,12 @@ struct Alike {
     bool silent(std::size_t) const { return false; }
     float pull(std::size_t) const { return own_pull; }
     Vector damping(std::size_t r, std::size_t j, float pull) const {
-        return 2 * pull * (load(speed[r] + j) - own[r]);
+        return 2 * pull * (Vector::load(speed[r] + j) - own[r]);
     }
 };
 
 /// What arrives now of stresses that were renewed over several levels' steps.
+template <class Vector>
 struct Mixed {
     const float* impulses;
     const float* level;
@@ -233,7 +230,7 @@ struct Mixed {
     Mixed(const Particles& particles, std::size_t block, const Arrivals& arrivals)
         : impulses(arrivals.impulse.lanes()),
           level(arrivals.level.lanes()),
-          per_period(material::broadcast(1 / arrivals.period)),
+          per_period(1 / arrivals.period),
           open(arrivals.open) {
         const Vector impulse = arrivals.impulse[block];
         own_arrives = impulse[0] <= open;
@@ -260,25 +257,27 @@ struct Mixed {
         return !own_arrives && impulses[j] > open && impulses[j + block_size - 1] > open;
     }
     Vector pull(std::size_t j) const {
-        const Vector impulse = load(impulses + j);
-        return impulse <= open ? impulse * per_period : Vector{};
+        const Vector impulse = Vector::load(impulses + j);
+        return lane_select(impulse > open, Vector{}, impulse * per_period);
     }
     Vector damping(std::size_t r, std::size_t j, const Vector& pull) const {
-        const Vector of = load(level + j);
+        const Vector of = Vector::load(level + j);
         Vector seen = own[0][r];
         for (std::size_t l = 1; l < levels; ++l) {
-            seen = of == number[l] ? own[l][r] : seen;
+            // Levels are listed from the finest.
+            seen = lane_select(of < number[l], seen, own[l][r]);
         }
-        return own_pull * (load(own_step_speed[r] + j) - own_step_own[r]) +
-               pull * (load(renewed_speed[r] + j) - seen);
+        return own_pull * (Vector::load(own_step_speed[r] + j) - own_step_own[r]) +
+               pull * (Vector::load(renewed_speed[r] + j) - seen);
     }
 };
 
 }  // namespace
 
-template <class Steps>
+template <class Vector, class Steps>
 void Reference::accelerate_in(const Steps& steps, Particles& particles,
                               std::size_t block) const {
+    const auto load = [](const float* first) { return Vector::load(first); };
     const float* volume = volume_.lanes();
     const float* place[3];
     const float* pull[9];
@@ -318,12 +317,18 @@ void Reference::accelerate_in(const Steps& steps, Particles& particles,
 }
 
 void Reference::accelerate(Particles& particles, std::size_t block, float share) const {
-    accelerate_in(Alike(particles, block, share), particles, block);
+    simd::run([&](auto chosen) {
+        using V = Registers<float, chosen.value>;
+        accelerate_in<V>(Alike<V>(particles, block, share), particles, block);
+    });
 }
 
 void Reference::accelerate(Particles& particles, std::size_t block,
                            const Arrivals& arrivals) const {
-    accelerate_in(Mixed(particles, block, arrivals), particles, block);
+    simd::run([&](auto chosen) {
+        using V = Registers<float, chosen.value>;
+        accelerate_in<V>(Mixed<V>(particles, block, arrivals), particles, block);
+    });
 }
 
 std::vector<std::vector<std::uint32_t>> Reference::stencils(
@@ -348,15 +353,6 @@ std::vector<std::vector<std::uint32_t>> Reference::stencils(
         stencils.emplace_back(stencil.begin(), stencil.end());
     }
     return stencils;
-}
-
-void Reference::store_pull(Particles& particles, std::size_t block,
-                           const Vector (&stress)[9]) const {
-    Vector pull[9];
-    times_symmetric(stress, inverse_, block, pull);
-    for (std::size_t c = 0; c < 9; ++c) {
-        particles.pull[c][block] = pull[c] - viscosity_ * particles.rate[c][block];
-    }
 }
 
 }  // namespace taylorcal::sph

@@ -37,6 +37,7 @@ class Reference {
                     const Arrivals& arrivals) const;
 
     /// P K^-1 - c Fdot for one block, from P.
+    template <class Vector>
     void store_pull(Particles& particles, std::size_t block,
                     const Vector (&stress)[9]) const;
 
@@ -55,9 +56,12 @@ class Reference {
         std::array<float, 5> steepness;  // -W'/r [1/m5]
     };
 
+    template <class Vector>
+    void velocity_gradient_in(Particles& particles, std::size_t block,
+                              const std::array<Field, 3>& velocity) const;
     void find_neighbours(const Packing& packing);
     void measure_moments(const Packing& packing);
-    template <class Steps>
+    template <class Vector, class Steps>
     void accelerate_in(const Steps& steps, Particles& particles, std::size_t block) const;
 
     std::vector<std::size_t> active_;
@@ -70,5 +74,26 @@ class Reference {
     std::array<Field, 3> first_moment_;  // sum_j w X_ij
     float viscosity_;                    // hourglass, c [Pa s]
 };
+
+/// A K^-1 for a row-major A and a symmetric K^-1.
+template <class Vector>
+inline void times_symmetric(const Vector (&a)[9], const std::array<Field, 6>& k,
+                            std::size_t b, Vector (&c)[9]) {
+    for (int r = 0; r < 9; r += 3) {
+        c[r] = a[r] * k[0][b] + a[r + 1] * k[3][b] + a[r + 2] * k[4][b];
+        c[r + 1] = a[r] * k[3][b] + a[r + 1] * k[1][b] + a[r + 2] * k[5][b];
+        c[r + 2] = a[r] * k[4][b] + a[r + 1] * k[5][b] + a[r + 2] * k[2][b];
+    }
+}
+
+template <class Vector>
+void Reference::store_pull(Particles& particles, std::size_t block,
+                           const Vector (&stress)[9]) const {
+    Vector pull[9];
+    times_symmetric(stress, inverse_, block, pull);
+    for (std::size_t c = 0; c < 9; ++c) {
+        particles.pull[c][block] = pull[c] - viscosity_ * particles.rate[c][block];
+    }
+}
 
 }  // namespace taylorcal::sph

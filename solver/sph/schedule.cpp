@@ -91,8 +91,8 @@ void Schedule::share_steps() {
         share_[i] = static_cast<float>((last_[i] + next) / (2 * next));
         last_[i] = next;
         const std::size_t block = packing_.active[i];
-        now_.level[block] = material::broadcast(static_cast<float>(renewal_[i]));
-        impulse_[block] = material::broadcast(static_cast<float>(1u << renewal_[i]));
+        now_.level[block] = static_cast<float>(renewal_[i]);
+        impulse_[block] = static_cast<float>(1u << renewal_[i]);
         first_impulse_[block] = share_[i] * impulse_[block];
     }
 }

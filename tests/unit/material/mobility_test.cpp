@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 
+using namespace taylorcal;
 using namespace taylorcal::material;
 
 namespace {

@@ -1,10 +1,11 @@
 #include "solver/material/symmetric_solve.hpp"
 
-#include "solver/material/lanes.hpp"
+#include "common/lanes.hpp"
 
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
 
+using namespace taylorcal;
 using namespace taylorcal::material;
 
 TEST_CASE("five equations are solved lane by lane") {

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double step_growth = 1.2;  // of the stable step from one cycle to the next
 constexpr int deepest_level = 5;
-constexpr int shallowest_cycle = 3;  // levels: fewer would spend time dealing out steps
+constexpr int shallowest_cycle = 2;  // levels: fewer would spend time dealing out steps
 constexpr int candidates = 8;        // for the shortest step, within a factor of two
 
 /// Largest stable step of a cell times `numerics.cfl` [s].

@@ -20,6 +20,9 @@ Monitor::Monitor(const Body& body, const impact::ImpactCase& impact_case)
                        std::max(1, impact_case.history_samples)),
       snapshot_interval_(impact_case.snapshot_interval_s) {
     record(body);
+    if (snapshot_interval_ <= 0) return;
+    snapshots_.push_back(fields(body));
+    next_snapshot_ = snapshot_interval_;
 }
 
 double Monitor::rear_velocity(const Body& body) {

@@ -25,15 +25,6 @@ constexpr int largest_iteration_count = 100;
 // From this iteration on roots of the drag law are exact and steps may only improve.
 constexpr int first_careful_iteration = 12;
 
-template <class Real>
-constexpr std::array<std::array<Real, 5>, slip_system_count> schmid = [] {
-    std::array<std::array<Real, 5>, slip_system_count> rounded{};
-    for (std::size_t d = 0; d < slip_system_count; ++d)
-        for (std::size_t k = 0; k < 5; ++k)
-            rounded[d][k] = static_cast<Real>(schmid_tensors[d][k]);
-    return rounded;
-}();
-
 template <class V>
 inline V resolve(const std::array<typename V::Lane, 5>& m, const V (&e)[5]) {
     return m[0] * e[0] + m[1] * e[1] + m[2] * e[2] + m[3] * e[3] + m[4] * e[4];
@@ -179,7 +170,7 @@ bool DislocationStrength<Real, variant>::is_elastic(const Block& block,
     for (int k = 0; k < 5; ++k)
         trial[k] = block.elastic[k] + step.duration * step.rate[k];
     V largest = {};
-    for (const auto& m : schmid<Real>)
+    for (const auto& m : rounded_schmid_tensors<Real>)
         largest = lane_max(largest, lane_abs(resolve(m, trial)));
     const V threshold = hardening(block, step.shear_modulus) / 2;
     return !any_lane(2 * step.shear_modulus * largest > threshold);
@@ -250,7 +241,7 @@ void DislocationStrength<Real, variant>::solve_stress(Block& block, const Step& 
         V residual[5];
         for (int k = 0; k < 5; ++k) slip_strain[k] = V{};
         for (std::size_t d = 0; d < slip_system_count; ++d) {
-            const std::array<Real, 5>& m = schmid<Real>[d];
+            const std::array<Real, 5>& m = rounded_schmid_tensors<Real>[d];
             const V resolved = two_g * resolve(m, e);
             const V excess = lane_max(lane_abs(resolved) - threshold, V{});
             const V zeta = scale * excess;

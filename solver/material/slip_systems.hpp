@@ -40,4 +40,14 @@ inline constexpr std::array<Deviator, slip_system_count> schmid_tensors = [] {
     return made;
 }();
 
+template <class Real>
+inline constexpr std::array<std::array<Real, 5>, slip_system_count>
+    rounded_schmid_tensors = [] {
+        std::array<std::array<Real, 5>, slip_system_count> rounded{};
+        for (std::size_t d = 0; d < slip_system_count; ++d)
+            for (std::size_t k = 0; k < 5; ++k)
+                rounded[d][k] = static_cast<Real>(schmid_tensors[d][k]);
+        return rounded;
+    }();
+
 }  // namespace taylorcal::material

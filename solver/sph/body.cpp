@@ -1,4 +1,3 @@
-// (remove this line).
 #include "solver/sph/body.hpp"
 
 #include "solver/sph/orientations.hpp"

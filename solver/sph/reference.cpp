@@ -1,4 +1,3 @@
-// (remove this line).
 #include "solver/sph/reference.hpp"
 
 #include "solver/sph/kernel.hpp"

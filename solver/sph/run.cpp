@@ -1,4 +1,3 @@
-// (remove this line).
 #include "solver/sph/run.hpp"
 
 #include "solver/impact/simulate.hpp"

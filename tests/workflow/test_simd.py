@@ -11,10 +11,11 @@ import pytest
 
 VARIANTS = ["v2", "v3", "v4"]
 PROGRAMS = ["solver", "emulator", "calibrate"]
-# In an instruction of a disassembly: AVX to AVX-512 by prefix or register, and BMI and the like.
+# In an instruction of a disassembly: AVX to AVX-512 by prefix or register, and BMI and the like;
+# not tzcnt, which older processors run as bsf, with the same answer but for zero.
 BEYOND_BASELINE = re.compile(
     r"\t(v(?!err|erw|mcall|mfunc)\w+ |[^%]*%[yz]mm"
-    r"|(andn|bextr|bls\w+|bzhi|lzcnt|movbe|mulx|pdep|pext|rorx|sarx|shlx|shrx|tzcnt)\w? )"
+    r"|(andn|bextr|bls\w+|bzhi|lzcnt|movbe|mulx|pdep|pext|rorx|sarx|shlx|shrx)\w? )"
 )
 
 

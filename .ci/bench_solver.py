@@ -22,7 +22,7 @@ SETTINGS = [
     ("3d", "standard"),
 ]
 VELOCITY = 120  # [m/s]
-BATCH_RUNS = 16
+BATCH_RUNS = 32
 BATCH_REPEATS = 3
 COLUMNS = (
     f"{'shape':<18}{'points':>8}{'steps':>8}{'nbrs':>6}{'CPU s':>8}{'1e6 updates/s':>15}"
@@ -58,7 +58,8 @@ def batch_seconds(solver, folder, threads):
     design = folder / "design.h5"
     out = folder / "database.h5"
     start = time.monotonic()
-    call(solver, "batch", str(design), "--out", str(out), "--threads", str(threads))
+    files = [str(design), "--config", str(folder / "solver.json"), "--out", str(out)]
+    call(solver, "batch", *files, "--threads", str(threads))
     seconds = time.monotonic() - start
     for file in folder.glob("database*"):
         file.unlink()
@@ -86,6 +87,7 @@ def main(solver):
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         write_design(folder / "design.h5", equal_runs())
+        (folder / "solver.json").write_text(json.dumps({"fidelity": "coarse"}))
         ratios = []
         for _ in range(BATCH_REPEATS):
             one = batch_seconds(solver, folder, 1)

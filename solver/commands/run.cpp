@@ -9,14 +9,13 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <fstream>
 #include <memory>
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
-#include <sys/resource.h>
-
 namespace taylorcal::commands {
 namespace {
 
@@ -79,11 +78,15 @@ Configuration configuration_of(const RunOptions& options) {
     return read_configuration(JsonReader(document, "command line"));
 }
 
-/// Most memory that this process has held so far [B].
+/// Most memory that this process has held so far [B]; 0 where Linux does not tell.
+/// (getrusage would count what the parent held when it started this process.)
 std::int64_t peak_memory() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return 1024 * std::int64_t{usage.ru_maxrss};
+    std::ifstream status("/proc/self/status");
+    for (std::string word; status >> word;) {
+        std::int64_t kilobytes = 0;
+        if (word == "VmHWM:" && status >> kilobytes) return 1024 * kilobytes;
+    }
+    return 0;
 }
 
 void run(RunOptions options) {

@@ -49,7 +49,7 @@ void Monitor::observe(const Body& body) {
                                      std::abs(body.radius[n] - body.mesh.node_radius[n]));
     }
     if (body.time >= next_record_) record(body);
-    if (snapshot_interval_ > 0 && body.time >= next_snapshot_) {
+    if (body.time >= next_snapshot_ * (1 - 1e-9)) {
         snapshots_.push_back(fields(body));
         next_snapshot_ += snapshot_interval_;
     }

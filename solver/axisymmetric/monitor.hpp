@@ -3,6 +3,7 @@
 #include "solver/axisymmetric/body.hpp"
 #include "solver/impact/impact_result.hpp"
 
+#include <limits>
 #include <vector>
 
 namespace taylorcal::axisymmetric {
@@ -13,6 +14,8 @@ class Monitor {
     Monitor(const Body& body, const impact::ImpactCase& impact_case);
     /// To be called after every cycle of steps.
     void observe(const Body& body);
+    /// When the next snapshot is due, infinity if never [s].
+    double next_snapshot() const { return next_snapshot_; }
     /// Mean axial velocity of the rear face [m/s].
     static double rear_velocity(const Body& body);
     /// What was seen, for the result. `stop_time` in s, NaN if the rear moves still.
@@ -23,7 +26,7 @@ class Monitor {
 
     double record_interval_;
     double snapshot_interval_;
-    double next_snapshot_ = 0;
+    double next_snapshot_ = std::numeric_limits<double>::infinity();
     std::vector<impact::Fields> snapshots_;
     double next_record_ = 0;
     double last_time_ = 0;     ///< of the last cycle [s]

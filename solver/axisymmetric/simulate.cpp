@@ -5,6 +5,7 @@
 #include "solver/axisymmetric/monitor.hpp"
 #include "solver/axisymmetric/profile.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <ctime>
 #include <limits>
@@ -85,7 +86,8 @@ void run(const impact::ImpactCase& impact_case, Body& body,
     std::int64_t cycles = 0;
     double stop_time = std::numeric_limits<double>::quiet_NaN();
     while (result.reason.empty()) {
-        result.reason = take_cycle(body, steps, self_contact, end);
+        result.reason =
+            take_cycle(body, steps, self_contact, std::min(end, monitor.next_snapshot()));
         if (!result.reason.empty()) {
             result.status = impact::Status::failed;
             break;

@@ -62,7 +62,8 @@ int main(int argc, char** argv) {
     compare->add_option("--posterior", posterior, "Posterior of the same inputs (HDF5)")
         ->required();
     const auto add_signatures = [&](CLI::App* command) {
-        command->add_option("--posterior", paths.posterior, "Posterior of the same inputs")
+        command
+            ->add_option("--posterior", paths.posterior, "Posterior of the same inputs")
             ->required();
         command
             ->add_option("--signatures", paths.signatures,

@@ -26,8 +26,8 @@ class DiagnosedStudy {
     DiagnosedStudy(const InputPaths& files, const DiagnosisPaths& paths, int threads)
         : inputs_(files),
           levels_(spread_levels(inputs_.settings)),
-          posterior_(read_posterior(paths.posterior, inputs_.space, levels_,
-                                    inputs_.settings)),
+          posterior_(
+              read_posterior(paths.posterior, inputs_.space, levels_, inputs_.settings)),
           study_(read(paths, threads)) {
         require(inputs_.settings.likelihood == LikelihoodForm::full,
                 fmt::format("{}: likelihood = paper has no model of the errors, without "
@@ -50,9 +50,15 @@ class DiagnosedStudy {
 
   private:
     DiagnosisInputs read(const DiagnosisPaths& paths, int threads) const {
-        DiagnosisInputs all{inputs_.settings,   inputs_.set, inputs_.space,
-                            inputs_.predictor,  posterior_,  read_candidates(paths.candidates),
-                            {},                 {},          threads};
+        DiagnosisInputs all{inputs_.settings,
+                            inputs_.set,
+                            inputs_.space,
+                            inputs_.predictor,
+                            posterior_,
+                            read_candidates(paths.candidates),
+                            {},
+                            {},
+                            threads};
         all.runs = read_paired_runs(paths.signatures, inputs_.settings, all.candidates);
         for (std::size_t k = 0; k < all.candidates.size(); ++k)
             if (!all.runs.has_column[k])
@@ -107,15 +113,15 @@ void design(const InputPaths& files, const DiagnosisPaths& paths,
         const auto found =
             std::find_if(problem.candidates.begin(), problem.candidates.end(),
                          [&](const Candidate& c) { return c.name == name; });
-        require(found != problem.candidates.end(),
-                fmt::format("{}: its verdict names {}, which is not among the candidates. "
-                            "Diagnose again with these candidates.",
-                            diagnosis.string(), name));
+        require(
+            found != problem.candidates.end(),
+            fmt::format("{}: its verdict names {}, which is not among the candidates. "
+                        "Diagnose again with these candidates.",
+                        diagnosis.string(), name));
         set.push_back(static_cast<std::size_t>(found - problem.candidates.begin()));
     }
-    const std::vector<NextExperiment> shots =
-        design_shots(diagnosed.study(), problem, diagnosed.result.modes.front(), set,
-                     shots_in_design);
+    const std::vector<NextExperiment> shots = design_shots(
+        diagnosed.study(), problem, diagnosed.result.modes.front(), set, shots_in_design);
     const nlohmann::json json{{"schema", "taylorcal/next_experiment/1"},
                               {"effects", names},
                               {"next_experiments", to_json(shots)},

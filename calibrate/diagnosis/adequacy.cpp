@@ -9,12 +9,11 @@ namespace taylorcal::calibrate {
 namespace {
 
 /// Secant of the effect from absence to half its typical amplitude.
-Eigen::VectorXd effect_direction(const DiagnosisProblem& problem,
-                                 const Whitening& whiten, std::size_t k,
-                                 const Eigen::VectorXd& unit) {
+Eigen::VectorXd effect_direction(const DiagnosisProblem& problem, const Whitening& whiten,
+                                 std::size_t k, const Eigen::VectorXd& unit) {
     const double amplitude = 0.5 * problem.candidates[k].typical();
-    const RowMatrix shift = problem.model.shift(
-        k, unit.transpose(), Eigen::VectorXd::Constant(1, amplitude));
+    const RowMatrix shift =
+        problem.model.shift(k, unit.transpose(), Eigen::VectorXd::Constant(1, amplitude));
     return whiten(shift.transpose()) / amplitude;
 }
 
@@ -29,8 +28,7 @@ Screening screen(const DiagnosisProblem& problem, const Whitening& whiten,
     if (!(norm > 0)) return screening;
     screening.score = screening.projected.dot(refit.residual) / norm;
     screening.amplitude = screening.score / norm;
-    const bool is_present =
-        std::count(refit.effects.begin(), refit.effects.end(), k) > 0;
+    const bool is_present = std::count(refit.effects.begin(), refit.effects.end(), k) > 0;
     screening.is_screened =
         !is_present && screening.identifiability >= least_identifiability;
     return screening;
@@ -73,21 +71,19 @@ Adequacy test_adequacy(const DiagnosisProblem& problem, const Whitening& whiten,
     adequacy.n = problem.measured.size();
     adequacy.parameters = project.rank();
     adequacy.chi2 = project(refit.residual).squaredNorm();
-    adequacy.p_chi2 = chi2_tail(adequacy.chi2,
-                                static_cast<double>(adequacy.n - adequacy.parameters));
+    adequacy.p_chi2 =
+        chi2_tail(adequacy.chi2, static_cast<double>(adequacy.n - adequacy.parameters));
     adequacy.battery = battery_contrasts(problem);
     for (Contrast& contrast : adequacy.battery)
         contrast.direction = whiten(contrast.direction);
-    adequacy.p_battery =
-        test_contrasts(adequacy.battery, project, refit.residual, table);
+    adequacy.p_battery = test_contrasts(adequacy.battery, project, refit.residual, table);
     adequacy.drift = drift_contrasts(problem, refit.slope);
     adequacy.p_drift = test_contrasts(adequacy.drift, project, refit.residual, table);
     for (std::size_t k = 0; k < problem.candidates.size(); ++k)
-        adequacy.screening.push_back(
-            problem.model.why_unseen(k).empty()
-                ? screen(problem, whiten, refit, project, k)
-                : Screening{Eigen::VectorXd::Zero(adequacy.n),
-                            Eigen::VectorXd::Zero(adequacy.n)});
+        adequacy.screening.push_back(problem.model.why_unseen(k).empty()
+                                         ? screen(problem, whiten, refit, project, k)
+                                         : Screening{Eigen::VectorXd::Zero(adequacy.n),
+                                                     Eigen::VectorXd::Zero(adequacy.n)});
     test_scores(adequacy, problem, table);
     return adequacy;
 }

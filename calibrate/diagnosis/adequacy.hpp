@@ -10,12 +10,12 @@ namespace taylorcal::calibrate {
 
 /// How a candidate stands against the fitted model, all linearised there.
 struct Screening {
-    Eigen::VectorXd direction;  ///< whitened effect of amplitude 1, g
-    Eigen::VectorXd projected;  ///< P g
-    double identifiability = 0; ///< eta = |P g| / |g|
-    double score = 0;           ///< z = (P g)^T r / |P g|
-    double amplitude = 0;       ///< of the least squares, z / |P g|
-    bool is_screened = false;   ///< takes part in the score test
+    Eigen::VectorXd direction;   ///< whitened effect of amplitude 1, g
+    Eigen::VectorXd projected;   ///< P g
+    double identifiability = 0;  ///< eta = |P g| / |g|
+    double score = 0;            ///< z = (P g)^T r / |P g|
+    double amplitude = 0;        ///< of the least squares, z / |P g|
+    bool is_screened = false;    ///< takes part in the score test
 };
 
 /// Below this share of survival "a change of parameters would look the same here".

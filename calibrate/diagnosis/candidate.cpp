@@ -12,7 +12,8 @@ namespace taylorcal::calibrate {
 double AmplitudePrior::log_density(double amplitude) const {
     constexpr double impossible = -std::numeric_limits<double>::infinity();
     const double z = amplitude / scale;
-    const double normal = -0.5 * z * z - std::log(scale * std::sqrt(2 * std::numbers::pi));
+    const double normal =
+        -0.5 * z * z - std::log(scale * std::sqrt(2 * std::numbers::pi));
     switch (kind) {
         case Kind::normal:
             return normal;

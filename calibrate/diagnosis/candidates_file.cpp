@@ -41,16 +41,18 @@ Candidate read_candidate(const JsonReader& reader) {
     c.description = reader.text("description", "");
     c.source = reader.text("source", "");
     if (!(c.lowest <= c.base && c.base <= c.highest && c.lowest < c.highest))
-        reader.fail("base",
-                    fmt::format("= {} is not within lowest = {} to highest = {}. Widen the "
-                                "range or correct the value at which {} is absent.",
-                                c.base, c.lowest, c.highest, c.name));
+        reader.fail(
+            "base",
+            fmt::format("= {} is not within lowest = {} to highest = {}. Widen the "
+                        "range or correct the value at which {} is absent.",
+                        c.base, c.lowest, c.highest, c.name));
     // An amplitude that cannot be negative keeps to one side whatever the range says.
     if (!reader.boolean("signed", true)) c.lowest = c.base;
     if (c.prior.kind == AmplitudePrior::Kind::half_normal) c.lowest = c.base;
     if (!(c.prior.mass(c.lower(), c.upper()) > 0))
-        reader.fail("prior", "leaves nothing within lowest to highest. Give the range "
-                             "the side on which the prior lies.");
+        reader.fail("prior",
+                    "leaves nothing within lowest to highest. Give the range "
+                    "the side on which the prior lies.");
     return c;
 }
 
@@ -68,8 +70,9 @@ std::vector<Candidate> read_candidates(const std::filesystem::path& path) {
                                            candidates.back().name));
     }
     if (candidates.empty())
-        reader.fail("candidates", "is empty: there is nothing to tell apart. List effects "
-                                  "or constants that the study keeps fixed.");
+        reader.fail("candidates",
+                    "is empty: there is nothing to tell apart. List effects "
+                    "or constants that the study keeps fixed.");
     return candidates;
 }
 

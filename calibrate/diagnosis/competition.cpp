@@ -34,7 +34,6 @@ bool is_explanation(const DiagnosisProblem& problem, const Refit& fit,
     return !after.is_flagged(alpha_of_rest) && after.smallest_p() > p_before;
 }
 
-
 }  // namespace
 
 void weigh_candidates(const DiagnosisProblem& problem, ModeDiagnosis& mode) {
@@ -102,8 +101,8 @@ void weigh_pairs(const DiagnosisProblem& problem, const NormalTable& table,
             const std::size_t k = seen[i], l = seen[j];
             const Screening& a = mode.candidates[k].screening;
             const Screening& b = mode.candidates[l].screening;
-            const double r = mode.cosine(static_cast<Eigen::Index>(k),
-                                         static_cast<Eigen::Index>(l));
+            const double r =
+                mode.cosine(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(l));
             if (std::abs(r) > alike) continue;
             const double za = (a.score - r * b.score) / (1 - r * r);
             const double zb = (b.score - r * a.score) / (1 - r * r);
@@ -116,8 +115,8 @@ void weigh_pairs(const DiagnosisProblem& problem, const NormalTable& table,
                 a.projected.norm() * std::abs(problem.candidates[k].typical()) *
                 b.projected.norm() * std::abs(problem.candidates[l].typical()) *
                 std::sqrt(1 - r * r);
-            promises.push_back({{k, l},
-                                0.5 * (za * a.score + zb * b.score) - std::log1p(width)});
+            promises.push_back(
+                {{k, l}, 0.5 * (za * a.score + zb * b.score) - std::log1p(width)});
         }
     std::stable_sort(promises.begin(), promises.end(),
                      [](const auto& a, const auto& b) { return a.gain > b.gain; });

@@ -115,9 +115,9 @@ double test_contrasts(std::vector<Contrast>& contrasts, const Projector& project
                            table);
     for (Contrast& contrast : contrasts)
         contrast.p = test.probability(std::abs(contrast.z));
-    std::stable_sort(contrasts.begin(), contrasts.end(), [](const auto& a, const auto& b) {
-        return std::abs(a.z) > std::abs(b.z);
-    });
+    std::stable_sort(
+        contrasts.begin(), contrasts.end(),
+        [](const auto& a, const auto& b) { return std::abs(a.z) > std::abs(b.z); });
     return contrasts.front().p;
 }
 

@@ -14,8 +14,8 @@ namespace taylorcal::calibrate {
 /// A pattern of misfit to look for, as a change of the measured numbers.
 struct Contrast {
     std::string shape;
-    std::string size;   ///< empty for a parameter
-    std::string what;   ///< "mean", "slope", or the parameter that drifts
+    std::string size;  ///< empty for a parameter
+    std::string what;  ///< "mean", "slope", or the parameter that drifts
     Eigen::VectorXd direction;
     double z = 0;       ///< of the projected residual, unit normal under the null
     double p = 1;       ///< family-wise

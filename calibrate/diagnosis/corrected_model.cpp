@@ -21,9 +21,9 @@ RowMatrix CorrectedModel::predict(const RowMatrix& units) const {
     Eigen::Index at = 0;
     for (const Datum* datum : data_) {
         const auto n = static_cast<Eigen::Index>(datum->columns.size());
-        all.middleCols(at, n) = predictor_.predict(
-            datum->shot, space_.lot_parameters(units, datum->lot))(Eigen::all,
-                                                                   datum->columns);
+        all.middleCols(at, n) =
+            predictor_.predict(datum->shot, space_.lot_parameters(units, datum->lot))(
+                Eigen::all, datum->columns);
         at += n;
     }
     return all;

@@ -14,7 +14,8 @@ CorrectedPredictor::CorrectedPredictor(const Predictor& network, const Settings&
         typical_.push_back(std::abs(candidate.typical()));
 }
 
-RowMatrix CorrectedPredictor::predict(const Shot& shot, const RowMatrix& parameters) const {
+RowMatrix CorrectedPredictor::predict(const Shot& shot,
+                                      const RowMatrix& parameters) const {
     const ShapeSignature& shape = shapes_.at(shot.shape);
     RowMatrix sizes = network_.predict(shot, parameters);
     const RowMatrix raw = sizes;
@@ -40,9 +41,8 @@ RowMatrix CorrectedPredictor::shift(std::size_t k, const Shot& shot,
     if (!shape.effects[k]) return change;
     for (Eigen::Index i = 0; i < change.rows(); ++i) {
         const double amplitude = amplitudes(i) / typical_[k];
-        const Eigen::VectorXd per_amplitude = (*shape.effects[k])(
-            shape.terms(*shape.effects[k],
-                        inputs(shot, parameters.row(i).transpose()), amplitude));
+        const Eigen::VectorXd per_amplitude = (*shape.effects[k])(shape.terms(
+            *shape.effects[k], inputs(shot, parameters.row(i).transpose()), amplitude));
         for (std::size_t a = 0; a < shape.sizes.size(); ++a)
             change(i, shape.sizes[a]) = shot.initial_diameter_mm * amplitude *
                                         per_amplitude(static_cast<Eigen::Index>(a));
@@ -63,7 +63,8 @@ Eigen::VectorXd CorrectedPredictor::velocity_slope(const Shot& shot,
     return change.row(0).transpose() / step;
 }
 
-std::string CorrectedPredictor::why_unseen(std::size_t k, const std::string& shape) const {
+std::string CorrectedPredictor::why_unseen(std::size_t k,
+                                           const std::string& shape) const {
     if (shapes_.at(shape).effects[k]) return "";
     return "no signature runs with it for the shape " + shape;
 }

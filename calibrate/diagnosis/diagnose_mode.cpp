@@ -22,7 +22,8 @@ void screen_candidates(const DiagnosisProblem& problem, ModeDiagnosis& mode) {
         const double norm = record.screening.projected.norm();
         if (norm > 0)
             record.smallest_detectable =
-                (mode.adequacy.critical_score + normal_quantile_of_tail(1 - power)) / norm;
+                (mode.adequacy.critical_score + normal_quantile_of_tail(1 - power)) /
+                norm;
         record.has_physical_sign =
             problem.candidates[at].is_allowed(record.screening.amplitude);
         directions.col(k) = norm > 0 ? Eigen::VectorXd(record.screening.projected / norm)
@@ -31,9 +32,9 @@ void screen_candidates(const DiagnosisProblem& problem, ModeDiagnosis& mode) {
     }
     mode.cosine = directions.transpose() * directions;
     for (Eigen::Index k = 0; k < count; ++k)
-        mode.candidates[static_cast<std::size_t>(k)].alike = static_cast<std::size_t>(
-            (mode.cosine.col(k).array().abs() > alike).count() -
-            (mode.cosine(k, k) > alike ? 1 : 0));
+        mode.candidates[static_cast<std::size_t>(k)].alike =
+            static_cast<std::size_t>((mode.cosine.col(k).array().abs() > alike).count() -
+                                     (mode.cosine(k, k) > alike ? 1 : 0));
 }
 
 /// The most likely wrong shot or number, if it is beyond the bound and explains.

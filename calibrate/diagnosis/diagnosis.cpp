@@ -21,7 +21,8 @@ std::vector<Peak> find_peaks(const DiagnosisProblem& problem, const RowMatrix& s
     const Whitening whiten(problem.covariance);
     std::vector<Peak> all;
     for (Eigen::Index i = 0; i < starts.rows(); ++i) {
-        Refit fit = refit(problem, whiten, {}, starts.row(i).transpose(), Eigen::VectorXd());
+        Refit fit =
+            refit(problem, whiten, {}, starts.row(i).transpose(), Eigen::VectorXd());
         const double height = log_average_likelihood(fit, whiten.log_determinant());
         all.push_back({std::move(fit), height});
     }
@@ -32,7 +33,8 @@ std::vector<Peak> find_peaks(const DiagnosisProblem& problem, const RowMatrix& s
         const bool is_known = std::any_of(peaks.begin(), peaks.end(), [&](const Peak& p) {
             return (p.fit.residual - peak.fit.residual).norm() < same;
         });
-        if (is_known || peak.height < all.front().height + std::log(least_share)) continue;
+        if (is_known || peak.height < all.front().height + std::log(least_share))
+            continue;
         if (peaks.size() < most_modes) peaks.push_back(std::move(peak));
     }
     return peaks;

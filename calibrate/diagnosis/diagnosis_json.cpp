@@ -176,9 +176,8 @@ json to_json(const DiagnosisProblem& problem, const Diagnosis& diagnosis,
     json pairs = json::array(), modes = json::array(), residual_sd = json::object();
     for (const std::size_t k : order_of(mode)) {
         const auto& set = diagnosis.verdict.effects;
-        candidates.push_back(
-            candidate_json(problem.candidates[k], mode.candidates[k],
-                           std::count(set.begin(), set.end(), k) > 0));
+        candidates.push_back(candidate_json(problem.candidates[k], mode.candidates[k],
+                                            std::count(set.begin(), set.end(), k) > 0));
     }
     for (Eigen::Index k = 0; k < mode.cosine.rows(); ++k) {
         names.push_back(problem.candidates[static_cast<std::size_t>(k)].name);
@@ -193,10 +192,9 @@ json to_json(const DiagnosisProblem& problem, const Diagnosis& diagnosis,
         json parameters = json::object();
         for (std::size_t j = 0; j < problem.parameters.size(); ++j)
             parameters[problem.parameters[j]] = facts.mode_parameters[m][j];
-        modes.push_back(
-            {{"share", diagnosis.modes[m].share},
-             {"parameters", parameters},
-             {"verdict", verdict_json(problem, diagnosis.modes[m].verdict)}});
+        modes.push_back({{"share", diagnosis.modes[m].share},
+                         {"parameters", parameters},
+                         {"verdict", verdict_json(problem, diagnosis.modes[m].verdict)}});
     }
     for (std::size_t k = 0; k < facts.signature_residual_sd.size(); ++k)
         if (std::isfinite(facts.signature_residual_sd[k]))

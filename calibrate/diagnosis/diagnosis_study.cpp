@@ -63,7 +63,8 @@ void DiagnosisStudy::keep_diagnosable() {
         }
         Datum part = covered_part(*datum, predictor_.signature(shape));
         if (part.columns.size() < datum->columns.size())
-            unseen.insert("a size of " + in_words(shape) + " that the solver does not give");
+            unseen.insert("a size of " + in_words(shape) +
+                          " that the solver does not give");
         if (!part.columns.empty()) data_.push_back(std::move(part));
     }
     left_out_.assign(unseen.begin(), unseen.end());
@@ -79,8 +80,7 @@ const DiagnosisStudy::View& DiagnosisStudy::view_at(const Eigen::VectorXd& unit)
     for (const Datum& datum : data_) data.push_back(&datum);
     CorrectedModel model(predictor_, inputs_.space, data, unit);
     ErrorBudget errors = error_budget(predictor_, model, inputs_.settings);
-    views_.push_back(
-        std::make_unique<View>(View{std::move(model), std::move(errors)}));
+    views_.push_back(std::make_unique<View>(View{std::move(model), std::move(errors)}));
     return *views_.back();
 }
 
@@ -120,8 +120,8 @@ DiagnosisProblem DiagnosisStudy::problem_at(const Eigen::VectorXd& unit) const {
                  inputs_.settings.fit_sizes[static_cast<std::size_t>(datum.columns[i])],
                  datum.scale_mm(at)});
         }
-        problem.shots.push_back({datum.shot.id, datum.shot.shape, datum.shot.lot,
-                                 datum.shot.velocity_m_s});
+        problem.shots.push_back(
+            {datum.shot.id, datum.shot.shape, datum.shot.lot, datum.shot.velocity_m_s});
     }
     problem.parameters = inputs_.space.names();
     problem.candidates = inputs_.candidates;
@@ -146,12 +146,12 @@ DiagnosisFacts DiagnosisStudy::facts(const DiagnosisProblem& problem,
     const View& view = view_at(diagnosis.modes.front().base.unit);
     facts.errors_in_words = view.errors.words(view.model);
     if (!left_out_.empty())
-        facts.errors_in_words += fmt::format(
-            " Left out of the diagnosis, for want of signature runs: {}.",
-            fmt::join(left_out_, ", "));
+        facts.errors_in_words +=
+            fmt::format(" Left out of the diagnosis, for want of signature runs: {}.",
+                        fmt::join(left_out_, ", "));
     if (inputs_.runs.failed > 0)
-        facts.errors_in_words += fmt::format(" {} signature runs did not finish.",
-                                             inputs_.runs.failed);
+        facts.errors_in_words +=
+            fmt::format(" {} signature runs did not finish.", inputs_.runs.failed);
     for (const auto& [shape, signature] : predictor_.shapes())
         facts.signature_points += signature.points;
     for (std::size_t k = 0; k < problem.candidates.size(); ++k) {

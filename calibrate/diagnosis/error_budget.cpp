@@ -23,8 +23,8 @@ std::vector<Place> places_in(const CorrectedPredictor& predictor,
         const ShapeSignature& shape = predictor.signature(datum->shot.shape);
         const SmoothFit* fit = fit_of(shape);
         const Eigen::VectorXd terms =
-            fit ? shape.terms(*fit,
-                              predictor.inputs(datum->shot, model.reference_of(*datum)), 1)
+            fit ? shape.terms(
+                      *fit, predictor.inputs(datum->shot, model.reference_of(*datum)), 1)
                 : Eigen::VectorXd();
         for (const Eigen::Index column : datum->columns)
             places.push_back({datum, shape.output_of(column), terms});
@@ -99,9 +99,8 @@ ErrorBudget error_budget(const CorrectedPredictor& predictor, const CorrectedMod
     for (const Datum* datum : model.data()) {
         const auto count = static_cast<Eigen::Index>(datum->columns.size());
         const Eigen::VectorXd slope =
-            predictor.velocity_slope(datum->shot,
-                                     model.reference_of(*datum).transpose())(
-                datum->columns) *
+            predictor.velocity_slope(
+                datum->shot, model.reference_of(*datum).transpose())(datum->columns) *
             velocity_sd(settings, datum->shot);
         budget.measurement.diagonal().segment(at, count) = datum->sd_mm.cwiseAbs2();
         budget.velocity.block(at, at, count, count) = slope * slope.transpose();
@@ -157,11 +156,11 @@ Eigen::MatrixXd covariance_of_new_shot(const CorrectedPredictor& predictor,
     const ShapeSignature& shape = predictor.signature(shot.shape);
     const Eigen::VectorXd sizes =
         predictor.predict(shot, parameters).row(0).transpose()(shape.sizes);
-    const Eigen::VectorXd slope = predictor.velocity_slope(shot, parameters)(shape.sizes) *
-                                  velocity_sd(settings, shot);
+    const Eigen::VectorXd slope =
+        predictor.velocity_slope(shot, parameters)(shape.sizes) *
+        velocity_sd(settings, shot);
     Eigen::MatrixXd covariance = slope * slope.transpose();
-    covariance.diagonal() +=
-        sizes.cwiseProduct(relative_sd(shape.sizes)).cwiseAbs2();
+    covariance.diagonal() += sizes.cwiseProduct(relative_sd(shape.sizes)).cwiseAbs2();
     const double area = shot.initial_diameter_mm * shot.initial_diameter_mm;
     covariance += area * shape.network_error.noise;
     if (shape.resolution) {

@@ -28,13 +28,13 @@ ErrorBudget error_budget(const CorrectedPredictor& predictor, const CorrectedMod
                          const Settings& settings);
 
 /// Covariance of the error of candidate k's fitted signature at amplitude 1: its points'
-/// scatter about the polynomial, alike for all sizes of a shot, and the uncertainty of the
-/// coefficients, common to a shape.
+/// scatter about the polynomial, alike for all sizes of a shot, and the uncertainty of
+/// the coefficients, common to a shape.
 Eigen::MatrixXd effect_errors(const CorrectedPredictor& predictor,
                               const CorrectedModel& model, std::size_t k);
 
-/// Covariance of one shot of any kind: measurement (relative sd by fitted size), velocity,
-/// scatter and the resolution's error.
+/// Covariance of one shot of any kind: measurement (relative sd by fitted size),
+/// velocity, scatter and the resolution's error.
 Eigen::MatrixXd covariance_of_new_shot(const CorrectedPredictor& predictor,
                                        const Settings& settings, const Shot& shot,
                                        const RowMatrix& parameters,

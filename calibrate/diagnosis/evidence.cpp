@@ -29,7 +29,8 @@ Eigen::VectorXd profile(const DiagnosisProblem& problem, const Whitening& whiten
     const Eigen::Index p = fit.unit.size(), n = amplitudes.size();
     const Eigen::VectorXd measured = whiten(problem.measured);
     const Eigen::MatrixXd normal = fit.slope.transpose() * fit.slope;
-    const Eigen::VectorXd lower = Eigen::VectorXd::Zero(p), upper = Eigen::VectorXd::Ones(p);
+    const Eigen::VectorXd lower = Eigen::VectorXd::Zero(p),
+                          upper = Eigen::VectorXd::Ones(p);
     RowMatrix units = fit.unit.transpose().replicate(n, 1);
     Eigen::VectorXd lowest =
         Eigen::VectorXd::Constant(n, std::numeric_limits<double>::infinity());
@@ -40,10 +41,10 @@ Eigen::VectorXd profile(const DiagnosisProblem& problem, const Whitening& whiten
             measured.transpose();
         lowest = lowest.cwiseMin(residuals.rowwise().squaredNorm());
         for (Eigen::Index i = 0; i < n; ++i)
-            units.row(i) += bounded_step(normal, fit.slope.transpose() *
-                                                     residuals.row(i).transpose(),
-                                         units.row(i).transpose(), lower, upper, 0)
-                                .transpose();
+            units.row(i) +=
+                bounded_step(normal, fit.slope.transpose() * residuals.row(i).transpose(),
+                             units.row(i).transpose(), lower, upper, 0)
+                    .transpose();
     }
     return lowest;
 }
@@ -83,7 +84,8 @@ struct AmplitudeLikelihood {
     }
 };
 
-double quantile(const AmplitudeLikelihood& grid, const Eigen::VectorXd& mass, double share) {
+double quantile(const AmplitudeLikelihood& grid, const Eigen::VectorXd& mass,
+                double share) {
     double sum = 0;
     for (Eigen::Index i = 0; i < mass.size(); ++i)
         if ((sum += mass(i)) >= share) return grid.amplitude(i);
@@ -107,8 +109,7 @@ AmplitudeLikelihood amplitude_likelihood(const DiagnosisProblem& problem,
     for (Eigen::Index i = 0; i < points_of_integral; ++i) {
         const double place = static_cast<double>(i * (nodes_of_profile - 1)) /
                              static_cast<double>(points_of_integral - 1);
-        grid.log_likelihood(i) =
-            at_best - 0.5 * (interpolate(chi2, place) - fit.chi2());
+        grid.log_likelihood(i) = at_best - 0.5 * (interpolate(chi2, place) - fit.chi2());
     }
     return grid;
 }
@@ -167,8 +168,8 @@ EffectEvidence effect_evidence(const DiagnosisProblem& problem, const Whitening&
     found.log_gain_double_width = gain(2);
     found.log_gain = gain(1);
     found.mean = mass.dot(grid.amplitude);
-    found.sd = std::sqrt(
-        mass.dot((grid.amplitude.array() - found.mean).square().matrix()));
+    found.sd =
+        std::sqrt(mass.dot((grid.amplitude.array() - found.mean).square().matrix()));
     found.lower95 = quantile(grid, mass, 0.025);
     found.upper95 = quantile(grid, mass, 0.975);
     return found;
@@ -184,7 +185,8 @@ double pair_evidence(const DiagnosisProblem& problem, const Whitening& whiten,
                   0.5 * log_det(precision);
     for (std::size_t e = 0; e < fit.effects.size(); ++e) {
         const Candidate& c = problem.candidates[fit.effects[e]];
-        gain += std::log(std::abs(c.typical())) - std::log(c.prior.mass(c.lower(), c.upper())) +
+        gain += std::log(std::abs(c.typical())) -
+                std::log(c.prior.mass(c.lower(), c.upper())) +
                 c.prior.log_density(fit.amplitudes(static_cast<Eigen::Index>(e)));
     }
     return gain;

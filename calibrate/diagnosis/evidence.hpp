@@ -19,8 +19,8 @@ struct EffectEvidence {
 };
 
 /// ln of the likelihood averaged over the parameters about a fit, by Laplace's
-/// approximation, but for constants that all fits of a problem share. A parameter that the
-/// data do not feel counts with its prior's width.
+/// approximation, but for constants that all fits of a problem share. A parameter that
+/// the data do not feel counts with its prior's width.
 double log_average_likelihood(const Refit& fit, double log_determinant);
 
 /// C with the errors of the effects' signatures at their amplitudes.

@@ -13,14 +13,16 @@ namespace {
 double log_normal_density(const Eigen::VectorXd& deviation,
                           const Eigen::MatrixXd& covariance) {
     const Whitening whiten(covariance);
-    return -0.5 * (whiten(deviation).squaredNorm() + whiten.log_determinant() +
-                   static_cast<double>(deviation.size()) * std::log(2 * std::numbers::pi));
+    return -0.5 *
+           (whiten(deviation).squaredNorm() + whiten.log_determinant() +
+            static_cast<double>(deviation.size()) * std::log(2 * std::numbers::pi));
 }
 
 /// Prior variance of an amplitude counted in typical ones.
 double amplitude_variance(const Candidate& candidate) {
     const double scale = candidate.prior.scale / std::abs(candidate.typical());
-    const double share = candidate.prior.kind == AmplitudePrior::Kind::uniform ? 1.0 / 3 : 1;
+    const double share =
+        candidate.prior.kind == AmplitudePrior::Kind::uniform ? 1.0 / 3 : 1;
     return share * scale * scale;
 }
 
@@ -52,8 +54,8 @@ double leave_out_score(const DiagnosisProblem& problem, const Refit& fit,
         const Candidate& candidate = problem.candidates[fit.effects[e]];
         const Eigen::Index at = p + static_cast<Eigen::Index>(e);
         variance(at) = amplitude_variance(candidate);
-        from_prior(at) = fit.amplitudes(static_cast<Eigen::Index>(e)) /
-                         std::abs(candidate.typical());
+        from_prior(at) =
+            fit.amplitudes(static_cast<Eigen::Index>(e)) / std::abs(candidate.typical());
     }
     const Eigen::VectorXd deviation =
         whiten.colour(fit.residual).col(0) + slopes * from_prior;

@@ -31,8 +31,8 @@ Eigen::MatrixXd root_of_correlation(const Eigen::MatrixXd& directions) {
 NormalTable::NormalTable(std::uint64_t seed, Eigen::Index columns, Eigen::Index draws)
     : numbers_(draws, columns) {
     for (Eigen::Index j = 0; j < columns; ++j) {
-        const RandomStream stream(seed,
-                                  stream_of_nulls + (static_cast<std::uint64_t>(j) << 32));
+        const RandomStream stream(
+            seed, stream_of_nulls + (static_cast<std::uint64_t>(j) << 32));
         for (Eigen::Index i = 0; i < draws; ++i)
             numbers_(i, j) = stream.normal(static_cast<std::uint64_t>(i));
     }
@@ -72,7 +72,8 @@ double MaximumTest::probability(double strength) const {
     if (above >= enough_exceedances) return counted;
     // In the far tail the sum over the statistics is a close upper bound.
     double sum = 0;
-    for (const Side side : sides_) sum += (side == Side::both ? 2 : 1) * normal_tail(strength);
+    for (const Side side : sides_)
+        sum += (side == Side::both ? 2 : 1) * normal_tail(strength);
     return std::min(counted, sum);
 }
 

@@ -35,8 +35,9 @@ class RunTable {
         status = file.integers("status");
         require(shape.size() == status.size() && inputs_.rows() == outputs_.rows() &&
                     static_cast<std::size_t>(inputs_.rows()) == shape.size(),
-                path.string() + ": its tables have different numbers of rows. Make the "
-                                "file again with \"solver batch\".");
+                path.string() +
+                    ": its tables have different numbers of rows. Make the "
+                    "file again with \"solver batch\".");
     }
     std::optional<Eigen::Index> find(const std::string& name) const {
         const auto at = std::find(input_names.begin(), input_names.end(), name);
@@ -45,23 +46,26 @@ class RunTable {
     }
     Eigen::Index input(const std::string& name) const {
         const auto at = find(name);
-        require(at.has_value(), fmt::format("{}: it has no input column {}. Make the file "
-                                            "again from this study's design.",
-                                            path_.string(), name));
+        require(at.has_value(),
+                fmt::format("{}: it has no input column {}. Make the file "
+                            "again from this study's design.",
+                            path_.string(), name));
         return *at;
     }
     Eigen::Index output(const std::string& name) const {
         const auto at = std::find(output_names_.begin(), output_names_.end(), name);
-        require(at != output_names_.end(),
-                fmt::format("{}: it has no output {}. Make the file again with the present "
-                            "solver, or remove the size from fit_sizes.",
-                            path_.string(), name));
+        require(
+            at != output_names_.end(),
+            fmt::format("{}: it has no output {}. Make the file again with the present "
+                        "solver, or remove the size from fit_sizes.",
+                        path_.string(), name));
         return at - output_names_.begin();
     }
     double value(std::size_t row, Eigen::Index column) const {
         return inputs_(static_cast<Eigen::Index>(row), column);
     }
-    Eigen::VectorXd sizes(std::size_t row, const std::vector<Eigen::Index>& columns) const {
+    Eigen::VectorXd sizes(std::size_t row,
+                          const std::vector<Eigen::Index>& columns) const {
         return outputs_.row(static_cast<Eigen::Index>(row))(columns).transpose();
     }
     std::size_t rows() const { return shape.size(); }
@@ -105,7 +109,8 @@ std::string pair_key(const RunTable& table, std::size_t row,
     for (std::size_t c = 0; c < table.input_names.size(); ++c)
         if (std::find(candidates.begin(), candidates.end(),
                       std::optional(static_cast<Eigen::Index>(c))) == candidates.end())
-            key += fmt::format(" {:.12g}", table.value(row, static_cast<Eigen::Index>(c)));
+            key +=
+                fmt::format(" {:.12g}", table.value(row, static_cast<Eigen::Index>(c)));
     return key;
 }
 
@@ -119,7 +124,8 @@ BaseRun read_base(const RunTable& table, std::size_t row, const Settings& settin
     run.shot.initial_diameter_mm = table.value(row, table.input("initial_diameter_mm"));
     run.shot.initial_length_mm = run.shot.initial_diameter_mm *
                                  table.value(row, table.input("length_to_diameter"));
-    run.shot.initial_temperature_K = table.value(row, table.input("initial_temperature_K"));
+    run.shot.initial_temperature_K =
+        table.value(row, table.input("initial_temperature_K"));
     run.parameters.resize(static_cast<Eigen::Index>(settings.parameters.size()));
     for (std::size_t j = 0; j < settings.parameters.size(); ++j)
         run.parameters(static_cast<Eigen::Index>(j)) =
@@ -142,7 +148,8 @@ PairedRuns read_paired_runs(const std::filesystem::path& path, const Settings& s
                             const std::vector<Candidate>& candidates) {
     const RunTable table(path);
     std::vector<Eigen::Index> outputs;
-    for (const std::string& size : settings.fit_sizes) outputs.push_back(table.output(size));
+    for (const std::string& size : settings.fit_sizes)
+        outputs.push_back(table.output(size));
     PairedRuns runs;
     runs.descriptor_names = table.descriptor_names;
     std::vector<std::optional<Eigen::Index>> columns;
@@ -176,10 +183,9 @@ PairedRuns read_paired_runs(const std::filesystem::path& path, const Settings& s
             ++runs.failed;
             continue;
         }
-        runs.effects.push_back({*base->second, k,
-                                table.value(row, *columns[k]) - candidates[k].base,
-                                table.sizes(row, outputs) -
-                                    runs.bases[*base->second].sizes_mm});
+        runs.effects.push_back(
+            {*base->second, k, table.value(row, *columns[k]) - candidates[k].base,
+             table.sizes(row, outputs) - runs.bases[*base->second].sizes_mm});
     }
     return runs;
 }
@@ -193,18 +199,20 @@ std::vector<Eigen::VectorXd> finer_changes(const PairedRuns& coarse,
         for (const BaseRun& fine : finer.bases) {
             const BaseRun& base = coarse.bases[i];
             if (fine.run_id != base.run_id) continue;
-            require(fine.shot.shape == base.shot.shape &&
-                        is_same(fine.shot.velocity_m_s, base.shot.velocity_m_s) &&
-                        fine.parameters.isApprox(base.parameters, 1e-9),
-                    fmt::format("{}, run {}: its inputs differ from those of the same run "
-                                "among the signatures. Make the finer runs again.",
-                                path.string(), fine.run_id));
+            require(
+                fine.shot.shape == base.shot.shape &&
+                    is_same(fine.shot.velocity_m_s, base.shot.velocity_m_s) &&
+                    fine.parameters.isApprox(base.parameters, 1e-9),
+                fmt::format("{}, run {}: its inputs differ from those of the same run "
+                            "among the signatures. Make the finer runs again.",
+                            path.string(), fine.run_id));
             changes[i] = fine.sizes_mm - base.sizes_mm;
             ++found;
         }
-    require(found > 0, fmt::format("{}: none of its runs is a base run of the signatures. "
-                                   "Make the finer runs again.",
-                                   path.string()));
+    require(found > 0,
+            fmt::format("{}: none of its runs is a base run of the signatures. "
+                        "Make the finer runs again.",
+                        path.string()));
     return changes;
 }
 

@@ -37,9 +37,8 @@ struct Coordinates {
                           const std::vector<std::size_t>& effects,
                           const RowMatrix& points) const {
         const Eigen::Index m = points.cols() - parameters;
-        return whitened_predictions(
-            problem, whiten, effects, points.leftCols(parameters),
-            points.rightCols(m) * size.tail(m).asDiagonal());
+        return whitened_predictions(problem, whiten, effects, points.leftCols(parameters),
+                                    points.rightCols(m) * size.tail(m).asDiagonal());
     }
 };
 
@@ -51,7 +50,8 @@ Eigen::MatrixXd slopes(const DiagnosisProblem& problem, const Whitening& whiten,
     for (Eigen::Index j = 0; j < n; ++j) {
         points.row(2 * j) = points.row(2 * j + 1) = at.transpose();
         points(2 * j, j) = std::min(at(j) + coordinates.step(j), coordinates.upper(j));
-        points(2 * j + 1, j) = std::max(at(j) - coordinates.step(j), coordinates.lower(j));
+        points(2 * j + 1, j) =
+            std::max(at(j) - coordinates.step(j), coordinates.lower(j));
     }
     const RowMatrix predicted = coordinates.predictions(problem, whiten, effects, points);
     Eigen::MatrixXd slope(predicted.cols(), n);
@@ -157,8 +157,9 @@ Refit refit(const DiagnosisProblem& problem, const Whitening& whiten,
         if (gain > 0) slope = slopes(problem, whiten, effects, coordinates, at);
         if (gain < 1e-3) break;
     }
-    return {effects, at.head(p), at.tail(m).cwiseProduct(coordinates.size.tail(m)),
-            residual, slope.leftCols(p), slope.rightCols(m)};
+    return {
+        effects,  at.head(p),        at.tail(m).cwiseProduct(coordinates.size.tail(m)),
+        residual, slope.leftCols(p), slope.rightCols(m)};
 }
 
 }  // namespace taylorcal::calibrate

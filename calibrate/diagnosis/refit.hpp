@@ -12,10 +12,10 @@ namespace taylorcal::calibrate {
 /// The model with some candidates switched on, at its best parameters and amplitudes.
 struct Refit {
     std::vector<std::size_t> effects;
-    Eigen::VectorXd unit;        ///< of the calibrated parameters
-    Eigen::VectorXd amplitudes;  ///< of `effects`
-    Eigen::VectorXd residual;    ///< whitened
-    Eigen::MatrixXd slope;       ///< of whitened predictions to the unit coordinates
+    Eigen::VectorXd unit;          ///< of the calibrated parameters
+    Eigen::VectorXd amplitudes;    ///< of `effects`
+    Eigen::VectorXd residual;      ///< whitened
+    Eigen::MatrixXd slope;         ///< of whitened predictions to the unit coordinates
     Eigen::MatrixXd effect_slope;  ///< and to amplitudes counted in typical ones
 
     double chi2() const { return residual.squaredNorm(); }

@@ -14,7 +14,8 @@ double place_in_prior(const Parameter& prior, double value) {
 /// Rows gathered for one fit.
 class Rows {
   public:
-    void add(const Eigen::VectorXd& scaled, double amplitude, const Eigen::VectorXd& target) {
+    void add(const Eigen::VectorXd& scaled, double amplitude,
+             const Eigen::VectorXd& target) {
         if (!target.allFinite()) return;
         scaled_.push_back(scaled);
         amplitudes_.push_back(amplitude);
@@ -29,8 +30,8 @@ class Rows {
             scaled.row(i) = scaled_[static_cast<std::size_t>(i)].transpose();
             targets.row(i) = targets_[static_cast<std::size_t>(i)].transpose();
         }
-        return fit_smoothly(scaled, Eigen::Map<const Eigen::VectorXd>(amplitudes_.data(), n),
-                            targets);
+        return fit_smoothly(
+            scaled, Eigen::Map<const Eigen::VectorXd>(amplitudes_.data(), n), targets);
     }
 
   private:
@@ -69,10 +70,12 @@ Eigen::Index ShapeSignature::output_of(Eigen::Index size) const {
     return at == sizes.end() ? -1 : at - sizes.begin();
 }
 
-std::optional<ShapeSignature> shape_signature(
-    const PairedRuns& runs, const std::string& shape, const Predictor& network,
-    const Settings& settings, const std::vector<Candidate>& candidates,
-    const std::vector<Eigen::VectorXd>& finer) {
+std::optional<ShapeSignature> shape_signature(const PairedRuns& runs,
+                                              const std::string& shape,
+                                              const Predictor& network,
+                                              const Settings& settings,
+                                              const std::vector<Candidate>& candidates,
+                                              const std::vector<Eigen::VectorXd>& finer) {
     const std::vector<std::size_t> bases = runs.bases_of(shape);
     if (static_cast<Eigen::Index>(bases.size()) < fewest_points) return std::nullopt;
     ShapeSignature signature;

@@ -15,11 +15,12 @@ namespace taylorcal::calibrate {
 Eigen::VectorXd signature_inputs(const Shot& shot, const Eigen::VectorXd& parameters,
                                  const std::vector<Parameter>& priors);
 
-/// What the paired runs of one shape teach. All sizes are divided by the initial diameter.
+/// What the paired runs of one shape teach. All sizes are divided by the initial
+/// diameter.
 struct ShapeSignature {
     InputScaling scaling;
-    std::vector<Eigen::Index> sizes;  ///< fitted sizes that the shape has
-    SmoothFit network_error;          ///< solver - network
+    std::vector<Eigen::Index> sizes;                ///< fitted sizes that the shape has
+    SmoothFit network_error;                        ///< solver - network
     std::vector<std::optional<SmoothFit>> effects;  ///< change / (amplitude / typical)
     std::optional<SmoothFit> resolution;            ///< finer - present fidelity
     SmoothFit descriptors;
@@ -37,9 +38,11 @@ struct ShapeSignature {
 
 /// Nothing if the shape has fewer than four finished base runs. `finer`: changes by base
 /// run, empty where there are none.
-std::optional<ShapeSignature> shape_signature(
-    const PairedRuns& runs, const std::string& shape, const Predictor& network,
-    const Settings& settings, const std::vector<Candidate>& candidates,
-    const std::vector<Eigen::VectorXd>& finer);
+std::optional<ShapeSignature> shape_signature(const PairedRuns& runs,
+                                              const std::string& shape,
+                                              const Predictor& network,
+                                              const Settings& settings,
+                                              const std::vector<Candidate>& candidates,
+                                              const std::vector<Eigen::VectorXd>& finer);
 
 }  // namespace taylorcal::calibrate

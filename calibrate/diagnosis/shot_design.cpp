@@ -27,8 +27,9 @@ struct Explanation {
 Explanation with_candidate(const DiagnosisProblem& problem, const ModeDiagnosis& mode,
                            std::size_t k) {
     const EffectEvidence& evidence = *mode.candidates[k].evidence;
-    return {in_words(problem.candidates[k].name), std::exp(std::min(evidence.log_gain, 300.0)),
-            evidence.fit.unit, k, evidence.fit.amplitudes(0)};
+    return {in_words(problem.candidates[k].name),
+            std::exp(std::min(evidence.log_gain, 300.0)), evidence.fit.unit, k,
+            evidence.fit.amplitudes(0)};
 }
 
 /// The least visible candidate at the amplitude that would just be seen, the parameters
@@ -44,15 +45,15 @@ Explanation least_visible(const DiagnosisProblem& problem, const ModeDiagnosis& 
             least = k;
     if (!least) return {"", 1, mode.base.unit, std::nullopt, 0};
     const Candidate& c = problem.candidates[*least];
-    const double amplitude =
-        std::clamp(std::copysign(mode.candidates[*least].smallest_detectable, c.typical()),
-                   c.lower(), c.upper());
+    const double amplitude = std::clamp(
+        std::copysign(mode.candidates[*least].smallest_detectable, c.typical()),
+        c.lower(), c.upper());
     const Eigen::VectorXd absorbed =
         mode.base.slope.completeOrthogonalDecomposition().solve(
             mode.candidates[*least].screening.direction) *
         amplitude;
-    return {in_words(c.name), 1,
-            (mode.base.unit - absorbed).cwiseMax(0.0).cwiseMin(1.0), *least, amplitude};
+    return {in_words(c.name), 1, (mode.base.unit - absorbed).cwiseMax(0.0).cwiseMin(1.0),
+            *least, amplitude};
 }
 
 std::vector<Explanation> explanations_of(const DiagnosisProblem& problem,
@@ -60,8 +61,7 @@ std::vector<Explanation> explanations_of(const DiagnosisProblem& problem,
                                          const std::vector<std::size_t>& set) {
     std::vector<Explanation> all;
     for (const std::size_t k : set)
-        if (mode.candidates[k].evidence)
-            all.push_back(with_candidate(problem, mode, k));
+        if (mode.candidates[k].evidence) all.push_back(with_candidate(problem, mode, k));
     if (all.size() == 1) {
         std::optional<std::size_t> rival;
         const auto gain = [&](std::size_t k) {
@@ -97,7 +97,8 @@ std::vector<Shot> possible_shots(const CorrectedPredictor& predictor) {
                 };
                 Shot shot;
                 shot.shape = shape;
-                shot.velocity_m_s = between(0, static_cast<double>(v) / (steps_of_velocity - 1));
+                shot.velocity_m_s =
+                    between(0, static_cast<double>(v) / (steps_of_velocity - 1));
                 shot.initial_diameter_mm = between(2, 0.5);
                 shot.initial_length_mm =
                     shot.initial_diameter_mm *

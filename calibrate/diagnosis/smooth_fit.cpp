@@ -95,8 +95,8 @@ SmoothFit fit_smoothly(const Eigen::MatrixXd& scaled, const Eigen::VectorXd& amp
                        const Eigen::MatrixXd& targets) {
     const Eigen::Index n = scaled.rows();
     const bool has_amplitudes =
-        amplitudes.size() > 0 &&
-        amplitudes.maxCoeff() - amplitudes.minCoeff() > 1e-6 * amplitudes.cwiseAbs().maxCoeff();
+        amplitudes.size() > 0 && amplitudes.maxCoeff() - amplitudes.minCoeff() >
+                                     1e-6 * amplitudes.cwiseAbs().maxCoeff();
     // Outputs count alike, each by its spread about its mean.
     const Eigen::RowVectorXd weight =
         ((targets.rowwise() - targets.colwise().mean()).colwise().squaredNorm().array() /

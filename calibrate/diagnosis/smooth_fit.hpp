@@ -38,7 +38,7 @@ struct SmoothFit {
     Eigen::MatrixXd coefficients;  ///< [terms x outputs]
     /// Covariance of the coefficients of outputs a and b: noise(a, b) x this.
     Eigen::MatrixXd spread;
-    Eigen::MatrixXd noise;  ///< covariance of a point about the polynomial
+    Eigen::MatrixXd noise;    ///< covariance of a point about the polynomial
     double chosen_error = 0;  ///< mean squared leave-one-out error over that of the data
 
     Eigen::VectorXd operator()(const Eigen::VectorXd& terms_at) const {

@@ -52,8 +52,8 @@ Correlation strongest(const DiagnosisProblem& problem, const Eigen::VectorXd& re
         if (pairs.first.size() < fewest_shots) continue;
         ++sizes;
         const double found = rank_correlation(pairs.first, pairs.second);
-        const double z = std::abs(found) *
-                         std::sqrt(static_cast<double>(pairs.first.size() - 1));
+        const double z =
+            std::abs(found) * std::sqrt(static_cast<double>(pairs.first.size() - 1));
         const double p = 2 * normal_tail(z);
         if (p < best.p) best = {best.descriptor, size, found, p};
     }
@@ -77,8 +77,8 @@ Unexplained describe_unexplained(const DiagnosisProblem& problem,
     std::map<std::tuple<std::string, std::string, std::size_t>, Unexplained::Cell> cells;
     for (std::size_t i = 0; i < problem.data.size(); ++i) {
         const ShotLabel& shot = problem.shots[problem.data[i].shot];
-        Unexplained::Cell& cell = cells[{shot.shape, problem.data[i].size,
-                                         thirds.index(shot.velocity_m_s)}];
+        Unexplained::Cell& cell =
+            cells[{shot.shape, problem.data[i].size, thirds.index(shot.velocity_m_s)}];
         cell.shape = shot.shape;
         cell.size = problem.data[i].size;
         cell.velocity_third = thirds.word(shot.velocity_m_s);

@@ -6,13 +6,14 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Dense>
 #include <fmt/core.h>
 
 namespace taylorcal::calibrate::toys {
 
-/// A linear model with Gaussian errors, for which every number of a diagnosis has a closed
-/// form: y = 30 + A (u - 1/2) + sum kappa_k g_k + e, e ~ N(0, C). Two shapes, three sizes,
-/// shots over a range of velocity, errors correlated within a shot.
+/// A linear model with Gaussian errors, for which every number of a diagnosis has a
+/// closed form: y = 30 + A (u - 1/2) + sum kappa_k g_k + e, e ~ N(0, C). Two shapes,
+/// three sizes, shots over a range of velocity, errors correlated within a shot.
 struct LinearTable final : DiagnosisModel {
     Eigen::MatrixXd slope;    ///< A
     Eigen::MatrixXd effects;  ///< g, a column a candidate; amplitude 1 is one prior width
@@ -30,9 +31,10 @@ struct LinearTable final : DiagnosisModel {
                                              "head_length_mm"};
         for (const char* shape : {"uniform_cylinder", "truncated_cone"})
             for (int i = 0; i < shots_of_shape; ++i) {
-                for (const std::string& size : sizes) data.push_back({shots.size(), size, 20});
-                shots.push_back({fmt::format("{}{}", shape[0], i), shape, "lot",
-                                 100.0 + 12 * i});
+                for (const std::string& size : sizes)
+                    data.push_back({shots.size(), size, 20});
+                shots.push_back(
+                    {fmt::format("{}{}", shape[0], i), shape, "lot", 100.0 + 12 * i});
             }
         const auto n = static_cast<Eigen::Index>(data.size());
         base = Eigen::VectorXd::Constant(n, 30);
@@ -46,7 +48,8 @@ struct LinearTable final : DiagnosisModel {
         for (Eigen::Index i = 0; i < n; ++i) {
             const double t = time(i);
             const double size = static_cast<double>(i % 3);
-            slope.row(i) << 4 - size, 3 * t * (size - 1), 2 * (size == 1 ? 1 + t : -t * t);
+            slope.row(i) << 4 - size, 3 * t * (size - 1),
+                2 * (size == 1 ? 1 + t : -t * t);
         }
         for (Eigen::Index k = 0; k < candidate_count; ++k) effects.col(k) = pattern(k);
         for (int k = 0; k < candidate_count; ++k) {
@@ -60,8 +63,7 @@ struct LinearTable final : DiagnosisModel {
     }
     /// Velocity from -1 to 1.
     double time(Eigen::Index i) const {
-        const double v =
-            shots[data[static_cast<std::size_t>(i)].shot].velocity_m_s;
+        const double v = shots[data[static_cast<std::size_t>(i)].shot].velocity_m_s;
         return (v - 142) / 42;
     }
     bool is_cone(Eigen::Index i) const { return i >= 3 * shots_of_shape; }

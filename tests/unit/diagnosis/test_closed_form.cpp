@@ -14,9 +14,9 @@ namespace {
 
 /// ln N(x; 0, C).
 double log_density(const Eigen::VectorXd& x, const Eigen::MatrixXd& covariance) {
-    return -0.5 * (x.dot(covariance.ldlt().solve(x)) +
-                   std::log(covariance.determinant()) +
-                   static_cast<double>(x.size()) * std::log(2 * M_PI));
+    return -0.5 *
+           (x.dot(covariance.ldlt().solve(x)) + std::log(covariance.determinant()) +
+            static_cast<double>(x.size()) * std::log(2 * M_PI));
 }
 
 }  // namespace
@@ -32,7 +32,8 @@ TEST_CASE("tails of normal and chi^2 distributions have their known values", "[t
     CHECK(chi2_tail(0, 3) == 1);
 }
 
-TEST_CASE("scores, chi^2 and amplitudes are those of the normal equations", "[screening]") {
+TEST_CASE("scores, chi^2 and amplitudes are those of the normal equations",
+          "[screening]") {
     const toys::LinearTable table;
     const Eigen::VectorXd y = table.draw(3, 5 * table.effects.col(2));
     const ModeDiagnosis found = table.diagnose(y);
@@ -52,8 +53,9 @@ TEST_CASE("scores, chi^2 and amplitudes are those of the normal equations", "[sc
 
 TEST_CASE("the evidence of an effect is the conjugate one", "[evidence]") {
     toys::LinearTable table;
-    const auto kind = GENERATE(AmplitudePrior::Kind::normal, AmplitudePrior::Kind::half_normal,
-                               AmplitudePrior::Kind::uniform);
+    const auto kind =
+        GENERATE(AmplitudePrior::Kind::normal, AmplitudePrior::Kind::half_normal,
+                 AmplitudePrior::Kind::uniform);
     for (Candidate& c : table.candidates) {
         c.prior = {kind, 3};
         if (kind != AmplitudePrior::Kind::half_normal) c.lowest = -100;
@@ -87,12 +89,14 @@ TEST_CASE("the evidence of an effect is the conjugate one", "[evidence]") {
 
 TEST_CASE("the amplitude's posterior is the conjugate one", "[evidence]") {
     toys::LinearTable table;
-    for (Candidate& c : table.candidates) c.prior = {AmplitudePrior::Kind::half_normal, 3};
-    const ModeDiagnosis found = table.diagnose(
-        table.draw(4, table.amplitude_of(table.effects.col(1), 8) * table.effects.col(1)));
+    for (Candidate& c : table.candidates)
+        c.prior = {AmplitudePrior::Kind::half_normal, 3};
+    const ModeDiagnosis found = table.diagnose(table.draw(
+        4, table.amplitude_of(table.effects.col(1), 8) * table.effects.col(1)));
     const EffectEvidence& e = *found.candidates[1].evidence;
     const double a = found.candidates[1].screening.projected.norm();
-    const double v = 1 / (1.0 / 9 + a * a), m = v * a * found.candidates[1].screening.score;
+    const double v = 1 / (1.0 / 9 + a * a),
+                 m = v * a * found.candidates[1].screening.score;
     CHECK(e.mean == Approx(m).epsilon(0.01));
     CHECK(e.sd == Approx(std::sqrt(v)).epsilon(0.02));
     CHECK(e.lower95 == Approx(m - 1.96 * std::sqrt(v)).epsilon(0.02));
@@ -104,20 +108,19 @@ TEST_CASE("leaving a shape out predicts it as the joint Gaussian says", "[leave_
     const Eigen::VectorXd y = table.draw(8, table.no_shift());
     const DiagnosisProblem problem = table.problem(y);
     const Whitening whiten(table.covariance);
-    const Refit fit =
-        refit(problem, whiten, {2}, Eigen::VectorXd::Constant(3, 0.5), Eigen::VectorXd::Ones(1));
-    const double score = leave_out_score(problem, fit, table.covariance,
-                                         groups_to_leave_out(problem));
+    const Refit fit = refit(problem, whiten, {2}, Eigen::VectorXd::Constant(3, 0.5),
+                            Eigen::VectorXd::Ones(1));
+    const double score =
+        leave_out_score(problem, fit, table.covariance, groups_to_leave_out(problem));
     // y ~ N(base, C + A A^T / 12 + g g^T), and p(y_a | y_b) = p(y) / p(y_b).
     const Eigen::MatrixXd whole = table.covariance +
                                   table.slope * table.slope.transpose() / 12 +
                                   table.effects.col(2) * table.effects.col(2).transpose();
     const Eigen::VectorXd x = y - table.base;
     const Eigen::Index half = x.size() / 2;
-    const double exact =
-        2 * log_density(x, whole) -
-        log_density(x.head(half), whole.topLeftCorner(half, half)) -
-        log_density(x.tail(half), whole.bottomRightCorner(half, half));
+    const double exact = 2 * log_density(x, whole) -
+                         log_density(x.head(half), whole.topLeftCorner(half, half)) -
+                         log_density(x.tail(half), whole.bottomRightCorner(half, half));
     CHECK(score == Approx(exact).margin(0.01));
 }
 
@@ -154,9 +157,8 @@ TEST_CASE("a shot's deviation is studentised against the others", "[bad_data]") 
     const Eigen::VectorXd fit =
         information.inverse() * a_o.transpose() * c_oo.inverse() * x(others);
     const Eigen::MatrixXd a_s = table.slope(shot, Eigen::all);
-    const Eigen::MatrixXd spread =
-        Eigen::MatrixXd(table.covariance(shot, shot)) +
-        a_s * information.inverse() * a_s.transpose();
+    const Eigen::MatrixXd spread = Eigen::MatrixXd(table.covariance(shot, shot)) +
+                                   a_s * information.inverse() * a_s.transpose();
     const Eigen::VectorXd gap = x(shot) - a_s * fit;
     const double chi2 = gap.dot(spread.inverse() * gap);
     for (const Suspect& suspect : found.suspects)

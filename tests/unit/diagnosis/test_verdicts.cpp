@@ -22,7 +22,8 @@ TEST_CASE("sound tables are flagged no more often than alpha", "[verdict]") {
     int flagged = 0;
     for (int i = 0; i < tables; ++i) {
         const auto seed = static_cast<std::uint64_t>(1000 + i);
-        if (table.diagnose(table.draw(seed, table.no_shift())).verdict.is_flagged) ++flagged;
+        if (table.diagnose(table.draw(seed, table.no_shift())).verdict.is_flagged)
+            ++flagged;
     }
     const double limit = tables * 0.05 + 2 * std::sqrt(tables * 0.05 * 0.95);
     INFO(flagged << " of " << tables);
@@ -46,8 +47,7 @@ TEST_CASE("an effect of six sigma is flagged and named", "[verdict]") {
             if (!found.verdict.is_flagged) continue;
             ++flagged;
             in_set += names(found.verdict, k);
-            wrong_single +=
-                found.verdict.effects.size() == 1 && !names(found.verdict, k);
+            wrong_single += found.verdict.effects.size() == 1 && !names(found.verdict, k);
         }
     INFO(flagged << " flagged, " << in_set << " in the set, " << wrong_single
                  << " wrong of " << total);
@@ -59,11 +59,12 @@ TEST_CASE("an effect of six sigma is flagged and named", "[verdict]") {
 
 TEST_CASE("effects that look alike are reported together", "[verdict]") {
     toys::LinearTable table;
-    // Effect 1 becomes effect 0 with a little of its own: cosine about 0.99 after projection.
+    // Effect 1 becomes effect 0 with a little of its own: cosine about 0.99 after
+    // projection.
     const Eigen::VectorXd g = table.effects.col(0);
     const Eigen::VectorXd other =
-        table.effects.col(3) * (table.amplitude_of(table.effects.col(3), 1) /
-                                table.amplitude_of(g, 1));
+        table.effects.col(3) *
+        (table.amplitude_of(table.effects.col(3), 1) / table.amplitude_of(g, 1));
     table.effects.col(1) = g + 0.1 * other;
     int together = 0, total = 0;
     for (std::uint64_t i = 0; i < 20; ++i) {

@@ -43,6 +43,7 @@ json to_json(const ResidualGroup& group) {
             {"rms_relative", group.rms_relative},
             {"mean_relative", group.mean_relative},
             {"mean_standardised", group.mean_standardised},
+            {"mean_whitened", group.mean_whitened},
             {"whitened_rms", group.whitened_rms},
             {"words", group.words}};
 }

@@ -2,6 +2,7 @@
 
 #include "calibrate/comparison/groups.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/core.h>
@@ -10,6 +11,11 @@ namespace taylorcal::calibrate {
 namespace {
 
 constexpr double clear = 2.5;  // standard errors, 1 % two-sided
+
+std::string with_spaces(std::string name) {
+    std::replace(name.begin(), name.end(), '_', ' ');
+    return name;
+}
 
 bool is_beyond_errors(const ResidualGroup& group) {
     // The standard error of a root mean square of n unit normals is about 1/sqrt(2 n).
@@ -31,14 +37,12 @@ std::string direction(const ResidualGroup& group) {
 
 std::string subject(const ResidualGroup& group) {
     const std::string size = group.size.empty() ? "" : size_in_words(group.size);
-    if (group.by == "lot" || group.by == "shape") {
-        std::string key = group.by == "lot" ? "lot " + group.key : group.key;
-        for (char& c : key)
-            if (c == '_') c = ' ';
-        return size.empty() ? key : key + ", " + size;
-    }
     if (group.by == "use")
         return group.key == use_word(Use::calibrate) ? "fitted shots" : "held-back shots";
+    std::string owner =
+        group.by == "shape" ? shape_in_words(group.key) : shape_in_words(group.shape);
+    if (group.by == "lot") owner = "lot " + with_spaces(group.key);
+    if (!owner.empty()) return size.empty() ? owner : owner + ", " + size;
     return size.empty() ? "all sizes" : size;
 }
 
@@ -46,10 +50,13 @@ std::string subject(const ResidualGroup& group) {
 
 std::string size_in_words(const std::string& size) {
     if (size == "diameter_at_0p2L0_mm") return "diameter at 0.2 L0";
-    std::string words = size.substr(0, size.rfind("_mm"));
-    for (char& c : words)
-        if (c == '_') c = ' ';
-    return words;
+    return with_spaces(size.substr(0, size.rfind("_mm")));
+}
+
+std::string shape_in_words(const std::string& shape) {
+    if (shape == "reduced_head_4mm") return "4-mm head";
+    if (shape == "reduced_head_3mm") return "3-mm head";
+    return with_spaces(shape);
 }
 
 std::string group_words(const ResidualGroup& group) {

@@ -7,6 +7,8 @@ rule report:
         measurements=measurements_of,
         settings="results/{study}/config/report.json",
         page="workflow/report/page.html.j2",
+        base="workflow/report/base.html.j2",
+        figure="workflow/report/figure.html.j2",
         style="workflow/report/style.css",
     output:
         page="results/{study}/report.html",

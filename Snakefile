@@ -1,6 +1,7 @@
 # The chain from a study to its report:
 #   snakemake --cores all --config study=copper_measured
 #   snakemake --cores all results/paper_design/report.html
+#   snakemake --cores all results/paper_design/diagnosis.json
 configfile: "workflow/config.yaml"
 
 
@@ -10,10 +11,13 @@ include: "workflow/rules/runs.smk"
 include: "workflow/rules/emulator.smk"
 include: "workflow/rules/sample.smk"
 include: "workflow/rules/compare.smk"
+include: "workflow/rules/confirm.smk"
+include: "workflow/rules/ladder.smk"
+include: "workflow/rules/diagnose.smk"
 include: "workflow/rules/report.smk"
 
 
 rule all:
     default_target: True
     input:
-        f"results/{config['study']}/report.html",
+        targets_of_study(config["study"]),

@@ -6,6 +6,8 @@ configfile: "workflow/config.yaml"
 
 
 include: "workflow/rules/common.smk"
+include: "workflow/rules/common_revisions.smk"
+include: "workflow/rules/common_signatures.smk"
 include: "workflow/rules/design.smk"
 include: "workflow/rules/runs.smk"
 include: "workflow/rules/emulator.smk"

@@ -1,50 +1,5 @@
 # Which missing effect would explain the residuals? Pairs of runs with and without each
 # candidate (signatures), then the search itself. Nothing here reruns the calibration.
-from candidates import candidates, typical_amplitudes
-from make_signature_design import shapes_in_use
-from study import has_finer
-
-
-def candidates_of(wildcards):
-    study = study_of(wildcards.study)
-    try:
-        entries = candidates(study, solver_list("effects"), solver_list("parameters"))
-    except InputError as error:
-        raise WorkflowError(str(error))
-    return {"candidates": entries}
-
-
-def signature_settings(wildcards):
-    study = study_of(wildcards.study)
-    settings = {"points_per_shape": study["diagnosis"]["points_per_shape"]}
-    settings["seed"] = study["database"]["seed"]
-    return {**settings, "typical": typical_amplitudes(study, solver_list("effects"))}
-
-
-def signature_chunks(study):
-    return study["database"]["chunks"]
-
-
-def signature_rows_of_chunk(wildcards):
-    study = study_of(wildcards.study)
-    shapes = shapes_in_use(read_measurements(Path(measurements_of(wildcards))))
-    points = len(shapes) * study["diagnosis"]["points_per_shape"]
-    runs = points * (1 + len(candidates_of(wildcards)["candidates"]))
-    return share_of_chunk(runs, signature_chunks(study), wildcards)
-
-
-def signature_chunks_of(wildcards):
-    chunks = range(signature_chunks(study_of(wildcards.study)))
-    name = "results/{study}/signature_chunks/{chunk}.h5"
-    return expand(name, chunk=chunks, study=wildcards.study)
-
-
-def finer_of(wildcards):
-    """No run is finer than the finest fidelity."""
-    finer = has_finer(study_of(wildcards.study))
-    return f"results/{wildcards.study}/signatures_finer.h5" if finer else []
-
-
 rule candidates:
     output:
         "results/{study}/candidates.json",

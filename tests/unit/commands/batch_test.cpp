@@ -110,6 +110,31 @@ TEST_CASE("a run that fails becomes a row with its reason", "[batch]") {
     }
 }
 
+TEST_CASE("rows of before an effect was added join with its amplitude 0", "[merge]") {
+    const SmallBatch batch;
+    batch.run("old.h5", 1);
+    Design design = batch.design;
+    design.input_names.emplace_back("drag_slope");
+    design.inputs.conservativeResize(Eigen::NoChange, design.inputs.cols() + 1);
+    design.inputs.rightCols(1).setConstant(1e-8);
+    for (std::int64_t& id : design.run_id) id += 100;
+    run_batch(design, make_cases(design, batch.configuration, "new.h5"),
+              batch.configuration.document, batch.folder / "new.h5", 1,
+              testing::quick_answer);
+    const std::vector<std::string> files = {(batch.folder / "old.h5").string(),
+                                            (batch.folder / "new.h5").string()};
+    CHECK_THROWS_WITH(merge(files), Contains("new.h5: has other inputs"));
+    const Database old = read_database(files[0]);
+    const Database all = merge(files, {"drag_slope"});
+    const auto rows = static_cast<Eigen::Index>(old.design.rows());
+    CHECK(all.design.input_names == design.input_names);
+    REQUIRE(all.design.inputs.rows() == 2 * rows);
+    CHECK(all.design.inputs.topRows(rows).leftCols(5) == old.design.inputs);
+    CHECK((all.design.inputs.col(5).head(rows).array() == 0).all());
+    CHECK((all.design.inputs.col(5).tail(rows).array() == 1e-8).all());
+    CHECK(all.provenance == old.provenance);
+}
+
 TEST_CASE("chunks merge to the bytes of the whole", "[merge]") {
     const SmallBatch batch;
     const std::string whole = batch.run("whole.h5", 1);

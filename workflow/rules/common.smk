@@ -10,7 +10,8 @@ sys.path.insert(0, str(Path(workflow.basedir) / "workflow" / "scripts"))
 
 from input_errors import InputError
 from measurements import check_against_study, read_measurements
-from study import EXPERIMENTS, STAGE_SETTINGS, design_settings, load_study
+from outlines.table import check_outlines
+from study import EXPERIMENTS, STAGE_SETTINGS, design_settings, load_study, uses_outlines
 
 min_version("7.21")
 
@@ -27,7 +28,10 @@ def study_of(name):
     try:
         study = load_study(name)
         table = EXPERIMENTS / name / study["measurements"]
-        check_against_study(read_measurements(table), study, table)
+        rows = read_measurements(table)
+        check_against_study(rows, study, table)
+        if uses_outlines(study):
+            check_outlines(rows, study, table)
     except InputError as error:
         raise WorkflowError(str(error))
     return study
@@ -44,6 +48,39 @@ def design_settings_of(wildcards):
 def measurements_of(wildcards):
     study = study_of(wildcards.study)
     return str(EXPERIMENTS / wildcards.study / study["measurements"])
+
+
+def fitted_table_of(wildcards):
+    """The table that is fitted: with the outlines' scores if the study compares them."""
+    if uses_outlines(study_of(wildcards.study)):
+        return f"results/{wildcards.study}/outlines/measurements.csv"
+    return measurements_of(wildcards)
+
+
+def training_database_of(wildcards):
+    """The runs that the network learns: with the outlines' scores if the study compares them."""
+    folder = "outlines/" if uses_outlines(study_of(wildcards.study)) else ""
+    return f"results/{wildcards.study}/{folder}database.h5"
+
+
+def outlines_of(wildcards):
+    """The files of the measured outlines that are compared."""
+    table = Path(measurements_of(wildcards))
+    rows = [row for row in read_measurements(table) if row["use"] != "ignore"]
+    return [str(table.parent / row["outline"]) for row in rows if row["outline"]]
+
+
+def outline_errors_of(wildcards):
+    return study_of(wildcards.study)["outlines"]
+
+
+def outline_results_of(wildcards):
+    """What the report shows of the outlines, if the study compares them."""
+    if not uses_outlines(study_of(wildcards.study)):
+        return {}
+    names = {"outline_basis": "basis", "outline_scores": "scores"}
+    folder = f"results/{wildcards.study}/outlines"
+    return {key: f"{folder}/{name}.json" for key, name in names.items()}
 
 
 def rows_of_chunk(wildcards):

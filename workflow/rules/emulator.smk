@@ -1,7 +1,7 @@
 rule train:
     input:
         program="build/bin/emulator",
-        database="results/{study}/database.h5",
+        database=training_database_of,
         settings="results/{study}/config/train.json",
     output:
         "results/{study}/emulator.json",

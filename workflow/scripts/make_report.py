@@ -9,7 +9,8 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 from plotly.offline import get_plotlyjs
 
-from report import findings, model_charts, posterior_charts, quality_charts, words
+from report import findings, model_charts, outline_charts, posterior_charts, quality_charts
+from report import words
 from report.chart import Chart
 from report.plotly_chart import plotly_json
 from report.png_chart import save_png
@@ -25,6 +26,7 @@ def charts_of(results: Results) -> dict[str, list[Chart]]:
         "velocity": model_charts.velocity_charts(results),
         "parity": [model_charts.parity_chart(results)],
         "residuals": [model_charts.residual_chart(results)],
+        "outlines": outline_charts.outline_charts(results),
         "normal": [model_charts.normal_chart(results)],
         "posterior": [
             posterior_charts.marginal_chart(results),

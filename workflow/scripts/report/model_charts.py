@@ -6,8 +6,9 @@ from misfit_by_size import size_before_impact
 from report.chart import PALETTE, Band, Cells, Chart, Intervals, Line, Panel, Points
 from report.chart import ordered_colour
 from report.results import Results
-from report.words import SHAPE_WORDS, THIRD_WORDS, lot_words, sentence_case
+from report.words import SHAPE_WORDS, SIZE_WORDS, THIRD_WORDS, lot_words, sentence_case
 from report.words import signed_percent, size_words
+from study import OUTLINE_SCORES, is_radial
 
 USE_SYMBOL = {"calibrate": {}, "validate": {"hollow": True}, "ignore": {"symbol": "cross"}}
 FULL_COLOUR = 4.0  # mean deviation in standard errors that gets the full colour
@@ -81,7 +82,7 @@ def _velocity_chart(results: Results, size: str, rows: dict, ratios: list[float]
         for cell in shot["sizes"]:
             if cell["size"] == size:
                 panels.setdefault((shot["lot"], shot["shape"]), []).append((shot, cell))
-    over = "D₀" if "diameter" in size else "L₀"
+    over = "D₀" if is_radial(size) else "L₀"
     shown = []
     for (lot, shape), entries in panels.items():
         layers = _curve_layers(results, size, lot, shape, ratios)
@@ -247,7 +248,7 @@ def _split_key(key) -> tuple[str, str, str]:
     """(shape, size, third) of a group's key, in whatever order it is written."""
     parts = [part.strip() for part in (key.split(" x ") if isinstance(key, str) else key)]
     shape = next(part for part in parts if part in SHAPE_WORDS)
-    size = next(part for part in parts if part.endswith("_mm"))
+    size = next(part for part in parts if part in SIZE_WORDS)
     third = next(part for part in parts if part in THIRD_WORDS)
     return shape, size, third
 
@@ -257,7 +258,8 @@ def lot_residual_chart(results: Results) -> Chart:
     cells: dict[tuple, list] = {}
     for shot in results.comparison["shots"]:
         for cell in shot["sizes"]:
-            cells.setdefault((shot["lot"], cell["size"]), []).append(cell)
+            mine = {**cell, "relative": cell["residual"] / _reference(cell, shot)}
+            cells.setdefault((shot["lot"], cell["size"]), []).append(mine)
     lots = list(dict.fromkeys(lot for lot, _ in cells))
     sizes = list(dict.fromkeys(size for _, size in cells))
 
@@ -266,7 +268,7 @@ def lot_residual_chart(results: Results) -> Chart:
             return None
         return {
             "n": len(entries),
-            "mean_relative": mean(c["residual"] / max(c["measured"], c["sd"]) for c in entries),
+            "mean_relative": mean(c["relative"] for c in entries),
             "mean_standardised": mean(c["standardised"] for c in entries),
             "whitened_rms": mean(c["whitened"] ** 2 for c in entries) ** 0.5,
         }
@@ -279,6 +281,13 @@ def lot_residual_chart(results: Results) -> Chart:
         [size_words(size) for size in sizes],
         [[summary(cells.get((lot, size))) for size in sizes] for lot in lots],
     )
+
+
+def _reference(cell: dict, shot: dict) -> float:
+    """What a deviation is relative to: the size, or the diameter for a score near zero."""
+    if cell["size"] in OUTLINE_SCORES:
+        return shot["initial_diameter_mm"]
+    return max(cell["measured"], cell["sd"])
 
 
 def _cell_chart(name, title, caption, rows, columns, cells) -> Chart:

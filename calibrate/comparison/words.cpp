@@ -1,6 +1,7 @@
 #include "calibrate/comparison/words.hpp"
 
 #include "calibrate/comparison/groups.hpp"
+#include "calibrate/measurements/vocabulary.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -30,9 +31,16 @@ bool has_direction(const ResidualGroup& group) {
 
 std::string direction(const ResidualGroup& group) {
     const bool too_small = group.mean_relative > 0;
+    if (is_outline_score(group.size)) return too_small ? "too low" : "too high";
     if (group.size.find("diameter") != std::string::npos)
         return too_small ? "too narrow" : "too wide";
     return too_small ? "too short" : "too long";
+}
+
+/// What the per cent of a group are of, where it is not the size itself.
+std::string reference_in_words(const std::string& size) {
+    if (is_outline_score(size)) return " of D0";
+    return size == "undeformed_length_mm" ? " of L0" : "";
 }
 
 std::string subject(const ResidualGroup& group) {
@@ -49,6 +57,7 @@ std::string subject(const ResidualGroup& group) {
 }  // namespace
 
 std::string size_in_words(const std::string& size) {
+    if (is_outline_score(size)) return fmt::format("outline, component {}", size.back());
     if (size == "diameter_at_0p2L0_mm") return "diameter at 0.2 L0";
     return with_spaces(size.substr(0, size.rfind("_mm")));
 }
@@ -69,8 +78,8 @@ std::string group_words(const ResidualGroup& group) {
     if (has_direction(group))
         return fmt::format("{} predicted {:.1f} %{} {}{} {}", subject(group),
                            100 * std::abs(group.mean_relative),
-                           group.size == "undeformed_length_mm" ? " of L0" : "",
-                           direction(group), where, weight);
+                           reference_in_words(group.size), direction(group), where,
+                           weight);
     if (is_beyond_errors(group))
         return fmt::format("{} off by {:.1f} % rms{}, beyond the errors {}",
                            subject(group), 100 * group.rms_relative, where, weight);

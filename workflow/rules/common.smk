@@ -11,9 +11,10 @@ sys.path.insert(0, str(Path(workflow.basedir) / "workflow" / "scripts"))
 from effects import check_effects, solver_list
 from input_errors import InputError
 from measurements import check_against_study, read_measurements
+from outlines.table import check_outlines
 from revisions import HOME, homes_of, previous_home, split_home
 from study import EXPERIMENTS, STAGE_SETTINGS, at_revision, chunk_count, design_settings
-from study import load_study, new_runs
+from study import load_study, new_runs, uses_outlines
 
 min_version("7.21")
 
@@ -34,7 +35,10 @@ def study_of(home):
     try:
         study = load_study(name)
         table = EXPERIMENTS / name / study["measurements"]
-        check_against_study(read_measurements(table), study, table)
+        rows = read_measurements(table)
+        check_against_study(rows, study, table)
+        if uses_outlines(study):
+            check_outlines(rows, study, table)
         # A base that nothing was added to does not ask the solver.
         if inside or study["effects"] or study["diagnosis"]["candidates"] != "all":
             known = solver_list("effects")
@@ -75,6 +79,47 @@ def previous(file):
 
 def zero_inputs_of(wildcards):
     return " ".join(f"--zero-input {effect}" for effect in split_home(wildcards.study)[1][-1:])
+
+
+def fitted_table_of(wildcards):
+    """The table that is fitted: with the outlines' scores if the study compares them."""
+    if uses_outlines(study_of(wildcards.study)):
+        return f"results/{wildcards.study}/outlines/measurements.csv"
+    return measurements_of(wildcards)
+
+
+def with_scores(name):
+    """A database of the study: with the outlines' scores if the study compares them."""
+
+    def find(wildcards):
+        folder = "outlines/" if uses_outlines(study_of(wildcards.study)) else ""
+        return f"results/{wildcards.study}/{folder}{name}.h5"
+
+    return find
+
+
+def base_outlines_of(wildcards):
+    """All revisions use the base's components: their networks go on from each other."""
+    return f"results/{split_home(wildcards.study)[0]}/outlines/basis.json"
+
+
+def outlines_of(wildcards):
+    """The files of the measured outlines that are compared."""
+    table = Path(measurements_of(wildcards))
+    rows = [row for row in read_measurements(table) if row["use"] != "ignore"]
+    return [str(table.parent / row["outline"]) for row in rows if row["outline"]]
+
+
+def outline_errors_of(wildcards):
+    return study_of(wildcards.study)["outlines"]
+
+
+def outline_results_of(wildcards):
+    """What the report shows of the outlines, if the study compares them."""
+    if not uses_outlines(study_of(wildcards.study)):
+        return {}
+    scores = f"results/{wildcards.study}/outlines/scores.json"
+    return {"outline_basis": base_outlines_of(wildcards), "outline_scores": scores}
 
 
 def rows_of_chunk(wildcards):

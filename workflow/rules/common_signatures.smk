@@ -45,4 +45,4 @@ def signature_chunks_of(wildcards):
 def finer_of(wildcards):
     """No run is finer than the finest fidelity."""
     finer = has_finer(study_of(wildcards.study))
-    return f"results/{wildcards.study}/signatures_finer.h5" if finer else []
+    return with_scores("signatures_finer")(wildcards) if finer else []

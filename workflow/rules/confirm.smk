@@ -33,9 +33,9 @@ rule confirmation_runs:
 
 rule confirm:
     input:
-        runs="results/{study}/confirmation_runs.h5",
+        runs=with_scores("confirmation_runs"),
         comparison="results/{study}/comparison.json",
-        measurements=measurements_of,
+        measurements=fitted_table_of,
     output:
         "results/{study}/confirmation.json",
     log:

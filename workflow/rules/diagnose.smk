@@ -80,10 +80,10 @@ rule diagnose:
     input:
         program="build/bin/calibrate",
         emulator="results/{study}/emulator.json",
-        measurements=measurements_of,
+        measurements=fitted_table_of,
         settings="results/{study}/config/calibrate.json",
         posterior="results/{study}/posterior.h5",
-        signatures="results/{study}/signatures.h5",
+        signatures=with_scores("signatures"),
         finer=finer_of,
         candidates="results/{study}/candidates.json",
     output:
@@ -107,10 +107,10 @@ rule next_experiment:
         program="build/bin/calibrate",
         diagnosis="results/{study}/diagnosis.json",
         emulator="results/{study}/emulator.json",
-        measurements=measurements_of,
+        measurements=fitted_table_of,
         settings="results/{study}/config/calibrate.json",
         posterior="results/{study}/posterior.h5",
-        signatures="results/{study}/signatures.h5",
+        signatures=with_scores("signatures"),
         finer=finer_of,
         candidates="results/{study}/candidates.json",
     output:

@@ -1,7 +1,7 @@
 rule train:
     input:
         program="build/bin/emulator",
-        database="results/{study}/database.h5",
+        database=with_scores("database"),
         previous=previous("emulator.json"),
         settings="results/{study}/config/train.json",
     output:

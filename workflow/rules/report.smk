@@ -1,5 +1,6 @@
 rule report:
     input:
+        unpack(outline_results_of),
         comparison="results/{study}/comparison.json",
         posterior="results/{study}/posterior.h5",
         emulator="results/{study}/emulator.json",

@@ -2,7 +2,8 @@
 
 from pathlib import Path
 
-from report import findings, model_charts, posterior_charts, quality_charts, residual_charts
+from report import findings, model_charts, outline_charts, posterior_charts, quality_charts
+from report import residual_charts
 from report.chart import Chart
 from report.page import write_page
 from report.provenance import provenance_tables
@@ -21,6 +22,7 @@ def charts_of(results: Results) -> dict[str, list[Chart]]:
             residual_charts.scatter_chart(results),
             residual_charts.normal_chart(results),
         ],
+        "outlines": outline_charts.outline_charts(results),
         "posterior": [
             posterior_charts.marginal_chart(results),
             posterior_charts.map_chart(results),

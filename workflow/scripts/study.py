@@ -16,6 +16,7 @@ DESIGN_RANGES += ["initial_temperature_K"]
 LENGTH = ["initial_diameter_mm", "length_to_diameter"]
 DIAMETER = ["initial_diameter_mm"]
 FIDELITIES = ["coarse", "standard", "fine"]
+OUTLINE_SCORES = [f"outline_pc_{k}" for k in range(1, 5)]  # of principal components, in mm
 
 
 def load_study(name: str, experiments: Path = EXPERIMENTS) -> dict:
@@ -82,6 +83,16 @@ def _contradictions(study: dict) -> list[tuple[tuple, str]]:
     return found
 
 
+def is_radial(size: str) -> bool:
+    """Whether a size scales with the diameter, and not with the length."""
+    return "diameter" in size or size in OUTLINE_SCORES
+
+
+def uses_outlines(study: dict) -> bool:
+    """Whether measured outlines are compared, as scores of principal components."""
+    return any(size in OUTLINE_SCORES for size in study["emulator"]["outputs"])
+
+
 def design_settings(study: dict) -> dict:
     """What the design of the database depends on."""
     database = study["database"]
@@ -138,7 +149,7 @@ def train_settings(study: dict) -> dict:
     if study["revision"]:
         settings["epochs"] = epochs_of_revision
     outputs = [
-        {"name": size, "divide_by": DIAMETER if "diameter" in size else LENGTH}
+        {"name": size, "divide_by": DIAMETER if is_radial(size) else LENGTH}
         for size in settings.pop("outputs")
     ]
     category = "shape" if len(study["database"]["shapes"]) > 1 else None
@@ -162,7 +173,7 @@ def _amplitude(effect: dict) -> dict:
 
 def report_settings(study: dict) -> dict:
     """report.json: what only the page needs."""
-    keys = ("title", "material", "about", "synthetic", "synthetic_note")
+    keys = ("title", "material", "about", "synthetic", "synthetic_note", "outlines")
     settings = {key: study[key] for key in keys}
     parameters = load_schema("study")["properties"]["parameters"]["properties"]
     settings["parameters"] = {

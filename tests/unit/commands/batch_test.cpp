@@ -1,6 +1,7 @@
 #include "solver/commands/batch.hpp"
 
 #include "common/errors.hpp"
+#include "common/hdf5_file.hpp"
 #include "solver/commands/journal.hpp"
 #include "solver/commands/merge.hpp"
 #include "tests/unit/commands/small_batch.hpp"
@@ -97,6 +98,8 @@ TEST_CASE("a run that fails becomes a row with its reason", "[batch]") {
             CHECK(run.status == impact::Status::failed);
             CHECK(run.reason == "tangled cells");
             for (const double value : run.outputs) CHECK(std::isnan(value));
+            REQUIRE(run.outline_radius.size() == observe::outline_points);
+            for (const double radius : run.outline_radius) CHECK(std::isnan(radius));
         } else if (seed == 105) {
             CHECK(run.status == impact::Status::not_stopped);
             CHECK(run.reason == "time limit");
@@ -106,6 +109,8 @@ TEST_CASE("a run that fails becomes a row with its reason", "[batch]") {
             CHECK(run.outputs[0] ==
                   database.design.inputs(static_cast<Eigen::Index>(i), 0) / 3);
             CHECK(std::isnan(run.outputs[4]));
+            REQUIRE(run.outline_radius.size() == observe::outline_points);
+            CHECK(run.outline_radius[2] == 1 + 2 * run.outputs[0]);
         }
     }
 }
@@ -133,6 +138,17 @@ TEST_CASE("rows of before an effect was added join with its amplitude 0", "[merg
     CHECK((all.design.inputs.col(5).head(rows).array() == 0).all());
     CHECK((all.design.inputs.col(5).tail(rows).array() == 1e-8).all());
     CHECK(all.provenance == old.provenance);
+}
+
+TEST_CASE("a database made before outlines were kept is read without them", "[batch]") {
+    const SmallBatch batch;
+    batch.run("rows.h5", 2);
+    Database older = read_database(batch.folder / "rows.h5");
+    for (FinishedRun& run : older.runs) run.outline_radius.clear();
+    write_database(batch.folder / "older.h5", older);
+    CHECK_FALSE(Hdf5Reader(batch.folder / "older.h5").has("outline_radius"));
+    for (const FinishedRun& run : read_database(batch.folder / "older.h5").runs)
+        CHECK(run.outline_radius.empty());
 }
 
 TEST_CASE("chunks merge to the bytes of the whole", "[merge]") {

@@ -5,6 +5,7 @@ from report.chart import PALETTE, Band, Chart, Intervals, Line, Panel, Points
 from report.chart import ordered_colour
 from report.results import Results
 from report.words import SHAPE_WORDS, USE_WORDS, lot_words, sentence_case, size_words
+from study import is_radial
 
 USE_SYMBOL = {"calibrate": {}, "validate": {"hollow": True}, "ignore": {"symbol": "cross"}}
 
@@ -77,7 +78,7 @@ def _velocity_chart(results: Results, size: str, rows: dict, ratios: list[float]
         for cell in shot["sizes"]:
             if cell["size"] == size:
                 panels.setdefault((shot["lot"], shot["shape"]), []).append((shot, cell))
-    over = "D₀" if "diameter" in size else "L₀"
+    over = "D₀" if is_radial(size) else "L₀"
     shown = []
     for (lot, shape), entries in panels.items():
         layers = _curve_layers(results, size, lot, shape, ratios)

@@ -7,6 +7,7 @@ from report.model_charts import USE_SYMBOL, grouping
 from report.results import Results
 from report.words import SHAPE_WORDS, THIRD_WORDS, USE_WORDS, lot_words
 from report.words import signed_percent, size_words
+from study import OUTLINE_SCORES
 
 FULL_COLOUR = 4.0  # mean deviation in standard errors that gets the full colour
 BY_SHAPE_SIZE_THIRD = "shape x size x velocity_third"
@@ -59,7 +60,8 @@ def lot_heat_map(results: Results) -> Chart:
     cells: dict[tuple, list] = {}
     for shot in results.comparison["shots"]:
         for cell in shot["sizes"]:
-            cells.setdefault((shot["lot"], cell["size"]), []).append(cell)
+            mine = {**cell, "relative": cell["residual"] / _reference(cell, shot)}
+            cells.setdefault((shot["lot"], cell["size"]), []).append(mine)
     lots = list(dict.fromkeys(lot for lot, _ in cells))
     sizes = list(dict.fromkeys(size for _, size in cells))
 
@@ -68,7 +70,7 @@ def lot_heat_map(results: Results) -> Chart:
             return None
         return {
             "n": len(entries),
-            "mean_relative": mean(c["residual"] / max(c["measured"], c["sd"]) for c in entries),
+            "mean_relative": mean(c["relative"] for c in entries),
             "mean_whitened": mean(c["whitened"] for c in entries),
             "whitened_rms": mean(c["whitened"] ** 2 for c in entries) ** 0.5,
         }
@@ -80,6 +82,13 @@ def lot_heat_map(results: Results) -> Chart:
     )
     height = 40 + 46 * len(lots)
     return Chart("residuals_by_lot", "By lot", "", [panel], columns=1, row_height=height)
+
+
+def _reference(cell: dict, shot: dict) -> float:
+    """What a deviation is relative to: the size, or the diameter for a score near zero."""
+    if cell["size"] in OUTLINE_SCORES:
+        return shot["initial_diameter_mm"]
+    return max(cell["measured"], cell["sd"])
 
 
 def _cell_panel(rows, columns, cells, title="", several=False) -> Panel:

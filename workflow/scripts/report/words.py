@@ -4,6 +4,8 @@ import math
 
 from markupsafe import Markup, escape
 
+from study import OUTLINE_SCORES
+
 SIZE_WORDS = {
     "final_length_mm": "final length",
     "impact_diameter_mm": "impact diameter",
@@ -12,6 +14,7 @@ SIZE_WORDS = {
     "transition_diameter_mm": "transition diameter",
     "undeformed_length_mm": "undeformed length",
     "diameter_at_0p2L0_mm": "diameter at 0.2 L0",
+    **{name: f"outline, component {name[-1]}" for name in OUTLINE_SCORES},
 }
 SHAPE_WORDS = {
     "all": "all shapes",

@@ -3,6 +3,7 @@
 #include "solver/material/dislocation_strength.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace taylorcal::material {
 

@@ -22,9 +22,9 @@ Effect dynamic_recovery() {
             "0.1 eV",
         .unit = "1",
         .lowest = 0,
-        .highest = 20,
-        .prior = {PriorKind::half_normal, 3},
-        .typical = 2,
+        .highest = 5,
+        .prior = {PriorKind::half_normal, 1},
+        .typical = 0.5,
         .is_signed = false,
         .acts_on = ActsOn::material,
         .geometries = both_geometries,
@@ -32,10 +32,10 @@ Effect dynamic_recovery() {
         .description =
             "thermally activated loss of immobilized dislocations while the grain slips",
         .source =
-            "Mecking and Kocks 1981: k2 = 2 theta0/tau_s, 3 for copper at 300 K, and "
+            "Mecking and Kocks 1981: k2 = 2 theta0/tau_s, 3 for copper at 300 K and "
             "twice "
-            "to "
-            "ten times more at 700 K; Q is set to that",
+            "to ten times more at 700 K, for which Q is set; a third of it, since Eqs. "
+            "15-19 annihilate already",
         .apply =
             [](impact::ImpactCase& impact_case, double coefficient) {
                 const double burgers_vector = impact_case.material.burgers_vector;

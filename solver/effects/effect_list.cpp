@@ -19,12 +19,24 @@ Effect dynamic_recovery();
 Effect velocity_bias();
 
 const std::vector<Effect>& effect_list() {
+    // clang-format off
     static const std::vector<Effect> list = {
-        anvil_friction(),   thermal_softening(),    hall_petch(),    damage_softening(),
-        phonon_drag(),      taylor_quinney_shift(), back_stress(),   rod_texture(),
-        hard_skin(),        forest_storage(),       elastic_anvil(), oblique_impact(),
-        dynamic_recovery(), velocity_bias(),
+        anvil_friction(),
+        thermal_softening(),
+        hall_petch(),
+        damage_softening(),
+        phonon_drag(),
+        taylor_quinney_shift(),
+        back_stress(),
+        rod_texture(),
+        hard_skin(),
+        forest_storage(),
+        elastic_anvil(),
+        oblique_impact(),
+        dynamic_recovery(),
+        velocity_bias(),
     };
+    // clang-format on
     return list;
 }
 

@@ -11,7 +11,7 @@ Effect oblique_impact() {
         .equation = "anvil's normal at thetaA to the specimen's axis and flight",
         .unit = "deg",
         .lowest = 0,
-        .highest = 5,
+        .highest = 3,
         .prior = {PriorKind::half_normal, 1},
         .typical = 1,
         .is_signed = false,

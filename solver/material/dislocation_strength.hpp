@@ -24,7 +24,9 @@ class DislocationStrength final : public Strength<Real> {
     DislocationStrength(const Parameters& parameters,
                         const std::vector<Eigen::Quaterniond>& orientations);
     void update(std::size_t block, const BlockInput<Real>& input,
-                BlockOutput<Real>& output) override;
+                BlockOutput<Real>& output) override {
+        simd::on<variant>([&] { advance(blocks_[block], input, output); });
+    }
     GrainState state(std::size_t grain) const override;
     void change(const GrainChanges& changes) override;
 
@@ -40,6 +42,7 @@ class DislocationStrength final : public Strength<Real> {
         V immobile[slip_system_count];   ///< rhoI [1/m2]
         V drag_root[slip_system_count];  ///< z of the last step
         V annihilated_energy;            ///< J [J/m3]
+        V initial_resistance;            ///< Ys0, or what hooks make of it [Pa]
         V shear_modulus;                 ///< G of the last step [Pa]
         V temperature;                   ///< of the last step [K]
         double next_substep;             ///< that the kinetics allow [s]
@@ -90,12 +93,13 @@ class DislocationStrength final : public Strength<Real> {
                           Outcome& outcome) const;
     void accept(const Outcome& outcome, const Step& step, Block& block, Slip& slip) const;
     V hardening(const Block& block, const V& shear_modulus) const;
-    V resistance(const Block& block, const V& shear_modulus) const;
+    void before_slip(Block& block, Lean& lean) const;
+    void after_slip(const Lean& lean, const Step& step, Block& block, Slip& slip) const;
     static GrainBlock seen(const Block& block);
-    void change_resistance(const Block& block, V& resistance) const;
+    void change_resistance(Block& block) const;
     void lean_back(Block& block, Lean& lean) const;
-    void straighten(const Lean& lean, const Step& step, Block& block, Slip& slip) const;
-    void change_densities(Block& block, const Step& step, const Slip& slip) const;
+    void straighten(const Lean& lean, Real duration, Block& block, V& power) const;
+    void change_densities(Block& block, Real duration, const Slip& slip) const;
     void substep(Block& block, Step& step, double shortest, Slip& slip) const;
 
     Parameters parameters_;

@@ -104,8 +104,8 @@ def test_the_verdict_stands_first_in_words(full):
 
 def test_numbers_have_names_and_units(full):
     text = section(full[0], "missing")
-    assert "Back stress C b 1.90 GPa 0.704 to 3.10 +3.1 +2.8" in text
-    assert "Dynamic recovery parameters imitate it" in text
+    assert "Back stress H X 190 MPa 70.4 to 310 +3.1 +2.8" in text
+    assert "Dynamic recovery parameters imitate it k 2 – – +0.4 – – – 0.06" in text
     assert "Thermal softening wrong sign" in text
     shot = "truncated cone 124 8 5 300 4.8"
     assert shot in section(full[0], "next")
@@ -116,14 +116,16 @@ def test_adding_says_what_helped_and_what_did_not(full):
     assert "fitted shots falls from 1.51 to 0.95 standard errors" in text
     assert "ln Z rises by 71.4: the data ask for this effect." in text
     assert "ln Z changes by −1.1 only: the data do not ask for this effect." in text
-    assert "the solver's own misfit is 0.98 (network 0.95) on the fitted shots" in text
+    confirmed = json.loads(confirmations()["anvil_friction"].read_text())
+    solver = confirmed["misfit"]["calibrate"]["whitened_rms"]
+    assert f"the solver's own misfit is {solver:.2f} (network 0.95) on the fitted shots" in text
 
 
 def test_no_effect_says_how_large_one_would_have_been_seen(negative):
     page, plots = negative
     text = section(page, "verdict")
     assert "No effect supported" in text
-    assert "Friction on the anvil 0.0450" in text and "Back stress 2.90 GPa" in text
+    assert "Friction on the anvil 0.0450" in text and "Back stress 290 MPa" in text
     assert (
         "could not have shown thermal softening, dynamic recovery and error of the velocity meter"
         in text

@@ -35,6 +35,28 @@ def test_names_of_lots_and_parameters():
     assert words.signed_percent(-0.0123) == "−1.2\u202f%"
 
 
+@pytest.mark.parametrize(
+    "name, text",
+    [
+        ("muA", "μ<sub>A</sub>"),
+        ("rhoI(0)", "ρ<sub>I</sub>(0)"),
+        ("k2", "k<sub>2</sub>"),
+        ("beta", "β"),
+        ("dB/dT", "dB/dT"),
+        ("<b>", "&lt;b&gt;"),
+    ],
+)
+def test_symbols_are_set_as_a_paper_does(name, text):
+    assert words.symbol(name) == text
+
+
+def test_signs_and_probabilities():
+    assert words.signed(-0.04) == "+0.0"
+    assert words.signed(None) == "–"
+    assert words.probability(3e-9) == "< 0.0001"
+    assert words.probability(0.0421) == "0.042"
+
+
 def test_missing_values_become_null_in_a_chart():
     panel = Panel([Points([1.0, 2.0], [float("nan"), 3.123456789]), Line([0, 1], [0, 1])])
     figure = json.loads(plotly_json(Chart("name", "title", "", [panel])))

@@ -41,7 +41,7 @@ def write_diagnosis(
         plots,
         results=results,
         settings=results.settings,
-        scores=[candidate["score"] for candidate in results.ranked],
+        scores=[entry["score"] for entry in results.ranked if entry["score"] is not None],
         verdict=verdict,
         candidates=candidates,
         ladder=ladder,

@@ -11,8 +11,9 @@ def unit_words(candidate: dict) -> str:
     return UNIT_WORDS.get(unit, unit)
 
 
-def with_unit(value: float | None, candidate: dict, digits: int = 3) -> Markup:
-    return Markup("{} {}").format(number(value, digits), unit_words(candidate)).strip()
+def with_unit(value: float | None, candidate: dict) -> Markup:
+    unit = "" if value is None else unit_words(candidate)
+    return Markup("{} {}").format(number(value), unit).strip()
 
 
 def largest_physical(candidate: dict) -> float | None:
@@ -32,16 +33,22 @@ def ranking_rows(results: DiagnosisResults) -> list[dict]:
             "about": entry.get("description", ""),
             "constant": entry["kind"] == "constant",
             "amplitude": with_unit(entry["amplitude"], entry),
-            "interval": Markup(f"{number(entry['lower95'])} to {number(entry['upper95'])}"),
+            "interval": _interval(entry),
             "score": signed(entry["score"]),
             **_gains(entry),
-            "identifiability": f"{entry['identifiability']:.2f}",
+            "identifiability": signed(entry["identifiability"], 2).lstrip("+"),
             "in_set": entry["in_set"],
             "abstain": entry["abstain"],
             "remark": _remark(entry),
         }
         for entry in results.ranked
     ]
+
+
+def _interval(entry: dict) -> Markup | str:
+    if entry["lower95"] is None:
+        return "–"
+    return Markup(f"{number(entry['lower95'])} to {number(entry['upper95'])}")
 
 
 def _gains(entry: dict) -> dict:
@@ -58,10 +65,15 @@ def _remark(entry: dict) -> str:
     if entry["in_set"]:
         return "in the set"
     if entry["abstain"]:
-        return "parameters imitate it"
+        return _abstains(entry)
     if not entry["physical_sign"]:
         return "wrong sign"
     return ""
+
+
+def _abstains(entry: dict) -> str:
+    """Why nothing is concluded."""
+    return "no runs show it" if entry["identifiability"] is None else "parameters imitate it"
 
 
 def remarks(results: DiagnosisResults) -> list[tuple[str, str]]:
@@ -108,7 +120,7 @@ def unseen_rows(results: DiagnosisResults) -> list[dict]:
 
 def _seen_words(entry: dict, share: float | None) -> str:
     if entry["abstain"]:
-        return "never: a change of the parameters looks the same"
+        return f"never: {_abstains(entry)}"
     if share is None:
         return "no physical range is stated"
     if share > 1:

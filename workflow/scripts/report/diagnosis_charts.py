@@ -91,7 +91,11 @@ def confounding_chart(results: DiagnosisResults) -> Chart:
 
 def unseen_chart(results: DiagnosisResults) -> Chart:
     """Amplitudes on the scale of their physical range: hidden, visible, and estimated."""
-    entries = [entry for entry in results.ranked if largest_physical(entry)]
+    entries = [
+        entry
+        for entry in results.ranked
+        if largest_physical(entry) and entry["smallest_detectable"] is not None
+    ]
     rows = list(range(len(entries)))
     shares = [100 * entry["smallest_detectable"] / largest_physical(entry) for entry in entries]
     hidden = [
@@ -110,7 +114,8 @@ def unseen_chart(results: DiagnosisResults) -> Chart:
             legend="would not have been seen",
         ),
     ]
-    shown = [row for row in rows if not entries[row]["abstain"]]
+    shown = [row for row in rows if entries[row]["amplitude"] is not None]
+    shown = [row for row in shown if not entries[row]["abstain"]]
     share_of = {
         key: [
             max(-100.0, min(100.0, 100 * entries[row][key] / largest_physical(entries[row])))

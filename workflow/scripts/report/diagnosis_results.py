@@ -23,13 +23,15 @@ class DiagnosisResults:
     def ranked(self) -> list[dict]:
         """Candidates of the diagnosis with what candidates.json says of them, best first.
 
-        Those that the parameters can imitate, of which nothing is concluded, come last.
+        Those of which nothing can be concluded come last; their numbers may be None.
         """
         found = [
             {**self.candidates.get(entry["name"], {}), **entry}
             for entry in self.diagnosis["candidates"]
         ]
-        return sorted(found, key=lambda entry: (entry["abstain"], -entry["log_evidence_gain"]))
+        return sorted(
+            found, key=lambda entry: (entry["abstain"], -(entry["log_evidence_gain"] or 0))
+        )
 
 
 def load_diagnosis(

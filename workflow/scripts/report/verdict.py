@@ -19,15 +19,7 @@ DESCRIPTOR_WORDS = {
     "hourglass_share": "share of hourglass control in the energy",
     "energy_error": "error of the energy balance",
 }
-KIND_WORDS = {
-    "no effect supported": "no effect supported",
-    "effect": "one effect is missing",
-    "one of": "one of several effects is missing",
-    "not distinguishable": "something is missing, these data cannot tell what",
-    "outside the list": "something is missing that is not in the list",
-    "bad data": "bad data",
-}
-MOST_CONTRASTS = 8
+MOST_ROWS = 8
 
 
 def heading(verdict: dict) -> str:
@@ -114,7 +106,7 @@ def battery_rows(adequacy: dict) -> list[dict]:
             "z": signed(entry["z"]),
             "p": probability(entry["p"]),
         }
-        for entry in adequacy["battery"][:MOST_CONTRASTS]
+        for entry in adequacy["battery"][:MOST_ROWS]
     ]
 
 
@@ -127,7 +119,7 @@ def drift_rows(adequacy: dict) -> list[dict]:
             "shape": SHAPE_WORDS.get(entry["shape"], entry["shape"]),
             "shift": signed(entry["shift_sd"]),
         }
-        for entry in drift[:MOST_CONTRASTS]
+        for entry in drift[:MOST_ROWS]
     ]
 
 
@@ -138,10 +130,11 @@ def correlation_rows(results: DiagnosisResults) -> list[dict]:
             "descriptor": sentence_case(
                 DESCRIPTOR_WORDS.get(entry["descriptor"], entry["descriptor"].replace("_", " "))
             ),
+            "size": size_words(entry["size"]) if entry.get("size") else "all sizes",
             "rank": signed(entry["rank_correlation"], 2),
             "p": probability(entry["p"]),
         }
-        for entry in sorted(found, key=lambda entry: -abs(entry["rank_correlation"]))
+        for entry in sorted(found, key=lambda entry: -abs(entry["rank_correlation"]))[:MOST_ROWS]
     ]
 
 

@@ -1,6 +1,7 @@
 """Numbers and names as a reader wants them."""
 
 import math
+import re
 
 from markupsafe import Markup, escape
 
@@ -55,18 +56,26 @@ GREEK = {
     "alpha": "α",
     "beta": "β",
     "gamma": "γ",
-    "delta": "δ",
+    "eps": "ε",
     "eta": "η",
+    "theta": "θ",
     "kappa": "κ",
-    "lambda": "λ",
     "mu": "μ",
     "rho": "ρ",
     "sigma": "σ",
     "tau": "τ",
-    "theta": "θ",
-    "chi": "χ",
 }
-UNIT_WORDS = {"none": "", "1/m2": "m⁻²"}
+UNIT_WORDS = {
+    "none": "",
+    "1": "",
+    "1/m2": "m⁻²",
+    "1/m3": "m⁻³",
+    "kg/m3": "kg/m³",
+    "J/m2": "J/m²",
+    "MPa m^0.5": "MPa √m",
+    "dex": "decades",
+    "deg": "°",
+}
 USE_WORDS = {"calibrate": "fitted", "validate": "held back", "ignore": "left out"}
 THIRD_WORDS = {"low": "slow third", "middle": "middle third", "high": "fast third"}
 
@@ -111,10 +120,13 @@ def number(value: float, digits: int = 3) -> Markup:
 
 
 def symbol(name: str) -> Markup:
-    """μ of "mu", k with HP below of "k_HP"; other text as it is."""
-    parts = [" ".join(GREEK.get(w, w) for w in part.split(" ")) for part in name.split("_")]
-    letters = [escape(part) for part in parts]
-    return letters[0] + Markup("").join(Markup("<sub>{}</sub>").format(b) for b in letters[1:])
+    """μ with A below of "muA", ρ with I below and (0) of "rhoI(0)"; other text as it is."""
+    parts = re.fullmatch(rf"({'|'.join(GREEK)}|[A-Za-z])(\w*)(\(\w+\))?", name)
+    if not parts:
+        return escape(name)
+    letter, below, argument = parts.groups(default="")
+    sub = Markup("<sub>{}</sub>").format(below) if below else ""
+    return Markup("{}{}{}").format(GREEK.get(letter, letter), sub, argument)
 
 
 def sentence_case(text: str) -> str:
@@ -135,7 +147,7 @@ def signed_percent(share: float | None, digits: int = 1) -> str:
 
 def signed(value: float | None, digits: int = 1) -> str:
     """+1.2 or −0.3"""
-    if value is None:
+    if value is None or not math.isfinite(value):
         return "–"
     rounded = round(value, digits) + 0.0  # -0.0 becomes 0.0
     return f"{rounded:+.{digits}f}".replace("-", "−")

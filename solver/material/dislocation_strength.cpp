@@ -1,6 +1,7 @@
 #include "solver/material/dislocation_strength.hpp"
 
 #include "solver/material/crystal_frame.hpp"
+#include "solver/material/dislocation_hooks.hpp"
 #include "solver/material/line_search.hpp"
 #include "solver/material/microstructure.hpp"
 #include "solver/material/mobility.hpp"
@@ -63,6 +64,7 @@ DislocationStrength<Real, variant>::DislocationStrength(
             block.mobile[d] = parameters.rho_mobile_initial;
             block.immobile[d] = parameters.rho_immobile_initial;
         }
+        block.initial_resistance = parameters.initial_yield_stress;
         block.shear_modulus = 1;
         block.next_substep = std::numeric_limits<double>::infinity();
     }
@@ -75,7 +77,7 @@ auto DislocationStrength<Real, variant>::hardening(const Block& block,
     V total = block.immobile[0];
     for (std::size_t d = 1; d < slip_system_count; ++d) total += block.immobile[d];
     const double scale = parameters_.hardening_coefficient * parameters_.burgers_vector;
-    return parameters_.initial_yield_stress + scale * shear_modulus * lane_sqrt(total);
+    return block.initial_resistance + scale * shear_modulus * lane_sqrt(total);
 }
 
 /// Moves the block by the step's duration, shortened until no system multiplies too much,
@@ -101,13 +103,6 @@ void DislocationStrength<Real, variant>::substep(Block& block, Step& step,
 }
 
 template <class Real, simd::Variant variant>
-void DislocationStrength<Real, variant>::update(std::size_t block,
-                                                const BlockInput<Real>& input,
-                                                BlockOutput<Real>& output) {
-    simd::on<variant>([&] { advance(blocks_[block], input, output); });
-}
-
-template <class Real, simd::Variant variant>
 void DislocationStrength<Real, variant>::advance(Block& block,
                                                  const BlockInput<Real>& input,
                                                  BlockOutput<Real>& output) const {
@@ -123,6 +118,7 @@ void DislocationStrength<Real, variant>::advance(Block& block,
     step.sound_speed = lane_sqrt(step.shear_modulus / V(input.density));
     step.drag = parameters_.drag_constant + parameters_.drag_slope * V(input.temperature);
     block.shear_modulus = step.shear_modulus;
+    block.temperature = input.temperature;
     step.duration = input.time_step;
 
     V plastic_before[5];
@@ -141,7 +137,10 @@ void DislocationStrength<Real, variant>::advance(Block& block,
         const double count = std::max(1.0, std::ceil(left / wanted));
         step.duration = static_cast<Real>(left / count);
         Slip slip;
+        Lean lean;
+        before_slip(block, lean);
         substep(block, step, shortest, slip);
+        after_slip(lean, step, block, slip);
         work += slip.power * step.duration;
         // The last part of a step takes all of it, whatever the rounding.
         const auto duration = static_cast<double>(step.duration);
@@ -371,7 +370,7 @@ GrainState DislocationStrength<Real, variant>::state(std::size_t grain) const {
     state.equivalent_plastic_strain = std::sqrt(2.0 / 3 * plastic);
     state.elastic_shear_energy_J_m3 =
         static_cast<double>(block.shear_modulus[lane]) * elastic;
-    state.slip_resistance_Pa = parameters_.initial_yield_stress +
+    state.slip_resistance_Pa = static_cast<double>(block.initial_resistance[lane]) +
                                parameters_.hardening_coefficient *
                                    static_cast<double>(block.shear_modulus[lane]) *
                                    parameters_.burgers_vector *

@@ -4,7 +4,8 @@ import pytest
 from stub_lists import EFFECTS, effect
 from tiny_study import STUDY_YAML, write_study
 
-from effects import check_effects
+from candidates import candidates, typical_amplitudes
+from effects import check_effects, solver_list
 from input_errors import InputError
 from make_design import design
 from revisions import home_of, homes_of, previous_home, revision_ids, split_home
@@ -108,3 +109,22 @@ def test_the_new_runs_vary_every_amplitude_and_go_on_counting(revised, tiny_stud
     base = design(design_settings(tiny_study))
     assert not set(made["seed"]) & set(base["seed"])
     assert chunk_count({**revised, "database": {**revised["database"], "chunks": 90}}) == 64
+
+
+def test_the_solvers_own_list_serves_every_stage(tiny_study, program):
+    effects = solver_list("effects", program("solver"))
+    parameters = solver_list("parameters", program("solver"))
+    assert {"anvil_friction", "thermal_softening", "oblique_impact"} <= set(effects)
+    for name, entry in effects.items():
+        study = at_revision(tiny_study, [entry])
+        amplitude = STAGE_SETTINGS["calibrate"](study)["parameters"][-1]
+        assert amplitude["lower"] <= 0 <= amplitude["upper"], name
+        assert amplitude["lower"] < 0 or amplitude["prior"] != "normal", name
+        assert amplitude["lower"] == 0 or amplitude["prior"] != "half_normal", name
+    axisymmetric = [name for name, e in effects.items() if "axisymmetric" in e["geometries"]]
+    found = {entry["name"]: entry for entry in candidates(tiny_study, effects, parameters)}
+    assert [name for name, e in found.items() if e["kind"] == "effect"] == axisymmetric
+    for name, typical in typical_amplitudes(tiny_study, effects).items():
+        entry = found[name]
+        assert entry["lowest"] <= entry["base"] <= entry["highest"], name
+        assert entry["base"] < entry["base"] + typical <= entry["highest"], name

@@ -3,6 +3,7 @@
 #include "../common/temporary_folder.hpp"
 #include "common/errors.hpp"
 #include "emulator/inference/emulator.hpp"
+#include "emulator/training/samples.hpp"
 #include "emulator/training/train_emulator.hpp"
 #include "sample_database.hpp"
 
@@ -39,7 +40,8 @@ Dataset wider_data(const Dataset& old) {
 
 nlohmann::json wider_config(int epochs) {
     nlohmann::json config = testing::sample_config();
-    config["inputs"].insert(config["inputs"].begin() + 1, {{"name", "drag"}});
+    config["inputs"].insert(config["inputs"].begin() + 1,
+                            nlohmann::json::object({{"name", "drag"}}));
     config["epochs"] = epochs;
     return config;
 }

@@ -3,7 +3,7 @@ SHELL := /bin/bash
 .SHELLFLAGS := -euo pipefail -c
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help setup configure build demo test bench paper accuracy clean \
+.PHONY: help setup configure build demo diagnose test bench paper accuracy discovery clean \
         lint lint-format lint-tidy lint-workflow lint-python
 
 # Debian's own interpreters: another python3 first on PATH would lack the packages.
@@ -31,6 +31,9 @@ build: configure ## compile the programs into build/
 demo: build ## calibrate STUDY (copper_measured) from nothing and print the result
 	$(SNAKEMAKE) --profile $(PROFILE) --cores $(JOBS) --config study=$(STUDY)
 	@$(PYTHON) workflow/scripts/print_summary.py results/$(STUDY)
+
+diagnose: build ## where STUDY's model fails, and which physical effect it lacks
+	workflow/taylorcal diagnose $(STUDY) --cores $(JOBS)
 
 test: build ## unit, verification and workflow tests
 	ctest --test-dir $(BUILD) --output-on-failure --parallel $(JOBS)
@@ -62,6 +65,10 @@ paper: build ## the source paper's statements beside ours, with figures
 
 accuracy: build ## convergence, scatter, dissipation, bars and a random sample of runs; two hours
 	$(SNAKEMAKE) --snakefile tests/verification/Snakefile --cores $(JOBS) accuracy
+
+discovery: build ## blind tables with hidden effects: how often are they found?
+	$(SNAKEMAKE) --snakefile tests/discovery/Snakefile --cores $(JOBS)
+	@cat results/discovery/scores/scores.md
 
 bench: build ## speed of the solver, the network and the sampler
 	@.ci/bench $(BUILD)

@@ -7,11 +7,10 @@
 
 namespace taylorcal::calibrate {
 
-/// The shots, within what the signatures cover, that best tell apart the explanations of
-/// `names` (candidates; "" is the model without any). With one explanation its strongest
-/// rival joins; with none, the least visible effect at its smallest detectable amplitude
-/// is set against the model without it. Best first, at most `count`, one a shape and
-/// velocity step.
+/// The shots, within what the signatures cover, that best tell apart the candidates of
+/// `set`, at most `count`, best first. One candidate is set against its strongest rival;
+/// none: the least visible one at its smallest detectable amplitude against the model
+/// without it.
 std::vector<NextExperiment> design_shots(const DiagnosisStudy& study,
                                          const DiagnosisProblem& problem,
                                          const ModeDiagnosis& mode,

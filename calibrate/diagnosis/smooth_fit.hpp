@@ -6,6 +6,8 @@
 
 namespace taylorcal::calibrate {
 
+inline constexpr Eigen::Index fewest_points = 4;
+
 /// Inputs brought to about [-1, 1] by the range of the points they were fitted on. The
 /// first input (velocity) is always kept; others only if they vary. Beyond the range by
 /// more than a quarter they are held: a polynomial knows nothing there.
@@ -48,10 +50,8 @@ struct SmoothFit {
 };
 
 /// `scaled`: a scaled point a row; `amplitudes`: empty, or one a row, then terms in the
-/// amplitude are tried if it varies. At least three points.
+/// amplitude are tried if it varies. At least `fewest_points`.
 SmoothFit fit_smoothly(const Eigen::MatrixXd& scaled, const Eigen::VectorXd& amplitudes,
                        const Eigen::MatrixXd& targets);
-
-inline constexpr Eigen::Index fewest_points = 4;
 
 }  // namespace taylorcal::calibrate

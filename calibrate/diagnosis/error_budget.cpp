@@ -13,7 +13,22 @@ struct Place {
     const Datum* datum;
     Eigen::Index output;    // among the shape's fits
     Eigen::VectorXd terms;  // of the fit in question
+    double velocity = 0;    // -1 ... 1 over the paired runs of the shape
 };
+
+// What is left of a fit is partly grains, new for every shot, and partly what the
+// polynomial misses, alike for shots of neighbouring velocity. Paired runs have other
+// parameters each, so that they cannot tell the one from the other: half of the variance
+// each.
+constexpr double missed_share = 0.5;
+constexpr double missed_reach = 0.6;  // of the scaled velocity
+
+/// Correlation of what a fit leaves at two shots of a shape.
+double correlation_of_rest(const Place& a, const Place& b) {
+    if (a.datum == b.datum) return 1;
+    const double apart = (a.velocity - b.velocity) / missed_reach;
+    return missed_share * std::exp(-apart * apart / 2);
+}
 
 template <class FitOfShape>
 std::vector<Place> places_in(const CorrectedPredictor& predictor,
@@ -22,17 +37,19 @@ std::vector<Place> places_in(const CorrectedPredictor& predictor,
     for (const Datum* datum : model.data()) {
         const ShapeSignature& shape = predictor.signature(datum->shot.shape);
         const SmoothFit* fit = fit_of(shape);
+        const Eigen::VectorXd inputs =
+            predictor.inputs(datum->shot, model.reference_of(*datum));
         const Eigen::VectorXd terms =
-            fit ? shape.terms(
-                      *fit, predictor.inputs(datum->shot, model.reference_of(*datum)), 1)
-                : Eigen::VectorXd();
+            fit ? shape.terms(*fit, inputs, 1) : Eigen::VectorXd();
+        const double velocity = shape.scaling(inputs)(0);
         for (const Eigen::Index column : datum->columns)
-            places.push_back({datum, shape.output_of(column), terms});
+            places.push_back({datum, shape.output_of(column), terms, velocity});
     }
     return places;
 }
 
-/// Adds D_i D_j noise_ab x [within(shot) + terms_i spread terms_j] for pairs of a shape.
+/// Adds D_i D_j noise_ab x [correlation of the rest + terms_i spread terms_j] for pairs
+/// of a shape.
 void add_fit_errors(const std::vector<Place>& places, const CorrectedPredictor& predictor,
                     const auto& fit_of, Eigen::MatrixXd* of_points,
                     Eigen::MatrixXd* of_coefficients) {
@@ -48,7 +65,7 @@ void add_fit_errors(const std::vector<Place>& places, const CorrectedPredictor& 
             const double size = a.datum->shot.initial_diameter_mm *
                                 b.datum->shot.initial_diameter_mm *
                                 fit->noise(a.output, b.output);
-            if (of_points && a.datum == b.datum) (*of_points)(i, j) += size;
+            if (of_points) (*of_points)(i, j) += size * correlation_of_rest(a, b);
             if (of_coefficients) (*of_coefficients)(i, j) += size * spread.dot(b.terms);
         }
     }
@@ -129,8 +146,8 @@ std::string ErrorBudget::words(const CorrectedModel& model) const {
     };
     return fmt::format(
         "Errors counted, root mean square in per cent of the sizes: measurement {:.2f}, "
-        "velocity {:.2f}, scatter of the solver between sets of grains {:.2f}, the "
-        "network's own error after its correction {:.2f}, {}.",
+        "velocity {:.2f}, grains of the solver and what the network's correction misses "
+        "{:.2f}, the correction itself {:.2f}, {}.",
         share(measurement), share(velocity), share(scatter), share(correction),
         resolution.isZero()
             ? std::string("resolution not counted (no finer runs were given)")

@@ -12,9 +12,9 @@ namespace taylorcal::calibrate {
 struct ErrorBudget {
     Eigen::MatrixXd measurement;  ///< of the sizes, independent
     Eigen::MatrixXd velocity;     ///< moves all sizes of a shot together
-    Eigen::MatrixXd scatter;      ///< of the solver from one set of grains to another
-    Eigen::MatrixXd correction;   ///< of delta's coefficients: common to a shape
-    Eigen::MatrixXd resolution;   ///< of the discretisation: common to a shape
+    Eigen::MatrixXd scatter;  ///< of paired runs about their fit: grains, and its misfit
+    Eigen::MatrixXd correction;  ///< of delta's coefficients: common to a shape
+    Eigen::MatrixXd resolution;  ///< of the discretisation: common to a shape
 
     Eigen::MatrixXd total() const {
         return measurement + velocity + scatter + correction + resolution;

@@ -53,7 +53,8 @@ TEST_CASE("equal steps in probability are equal areas under the bell", "[prior]"
         if (i % 20000 != 9999) continue;
         const double value = range.lower + (i + 1) * width, share = area / total;
         CHECK(prior.cdf(value) == Approx(share).margin(1e-8));
-        CHECK(prior.quantile(share) == Approx(value).epsilon(1e-6));
+        // Nearer to 1 a double holds too few digits of what is left of the tail.
+        if (1 - share > 1e-8) CHECK(prior.quantile(share) == Approx(value).epsilon(1e-6));
     }
 }
 

@@ -102,19 +102,17 @@ TEST_CASE("a widened network answers bit by bit as the old one", "[widen]") {
     CHECK(model.members[0].layers[1].weights.rows() == 13);
 }
 
-TEST_CASE("going on from an old network is quicker than starting anew", "[widen]") {
+TEST_CASE("going on from an old network teaches it the new input", "[widen]") {
     const OldAndData c = old_and_data(200);
     nlohmann::json config = wider_config(60);
     config["neurons"] = 99;  // those of the old network are kept
     const Model further = train_further(c.old, "old.json", parsed(config), c.data, 2);
     CHECK(further.members.front().layers.front().bias.size() == 13);
-    const Model anew = train_emulator(parsed(wider_config(60)), c.data, 2);
     const auto rms = [](const Model& model) {
         return model.validation.at("rms_relative").get<double>();
     };
-    CAPTURE(rms(c.old), rms(further), rms(anew));
-    CHECK(rms(further) < 0.01);
-    CHECK(rms(further) < rms(anew));
+    CAPTURE(rms(c.old), rms(further));
+    CHECK(rms(further) < 0.005);
     CHECK(further.provenance.contains("from"));
     const Model again = train_further(c.old, "old.json", parsed(config), c.data, 1);
     CHECK(to_json(again).dump() == to_json(further).dump());

@@ -1,0 +1,65 @@
+"""Writes the lists of candidates that diagnoses get, each with the signatures that belong to it.
+
+/usr/bin/python3 tests/discovery/candidate_lists.py --study tests/discovery/study --out lists
+
+A list lacks one effect, or has constants that double some: rows of other candidates are left
+out of its signatures, so that nothing in its folder tells of them.
+"""
+
+import argparse
+import json
+import os
+from pathlib import Path
+
+import h5py
+import numpy as np
+from make_tables import hideable, is_listed, twins_of
+from plan import list_names, plan
+
+
+def kept_rows(inputs: np.ndarray, names: list[str], dropped: list[dict]) -> np.ndarray:
+    """Runs in which every dropped candidate is absent."""
+    away = [inputs[:, names.index(item["name"])] != item["base"] for item in dropped]
+    return ~np.any(away, axis=0) if away else np.ones(len(inputs), dtype=bool)
+
+
+def write_part(source: Path, target: Path, dropped: list[dict]) -> None:
+    """The database without the columns of the dropped candidates and the runs that had them."""
+    partial = target.with_name(target.name + ".tmp")
+    with h5py.File(source) as old, h5py.File(partial, "w") as new:
+        names = list(old["inputs"].attrs["names"])
+        rows = kept_rows(old["inputs"][:], names, dropped)
+        gone = {item["name"] for item in dropped}
+        columns = [index for index, name in enumerate(names) if name not in gone]
+        new.attrs.update(old.attrs)
+        for key, data in old.items():
+            values = data[:][rows]
+            values = values[:, columns] if key == "inputs" else values
+            new.create_dataset(key, data=values, dtype=data.dtype, track_times=False)
+            if key != "inputs":
+                new[key].attrs.update(data.attrs)
+        text = h5py.string_dtype(encoding="utf-8")
+        new["inputs"].attrs.create("names", [names[c] for c in columns], dtype=text)
+    os.replace(partial, target)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--study", type=Path, required=True)
+    parser.add_argument("--out", type=Path, required=True)
+    options = parser.parse_args()
+    candidates = json.loads((options.study / "candidates.json").read_text())["candidates"]
+    tables = plan(hideable(candidates), twins_of(candidates))
+    for which, name in list_names(tables).items():
+        folder = options.out / name
+        folder.mkdir(parents=True, exist_ok=True)
+        listed = [item for item in candidates if is_listed(item["name"], which)]
+        dropped = [item for item in candidates if item not in listed]
+        text = json.dumps({"candidates": listed}, indent=1)
+        (folder / "candidates.json").write_text(text + "\n")
+        for part in ("signatures.h5", "signatures_finer.h5"):
+            write_part(options.study / part, folder / part, dropped)
+
+
+if __name__ == "__main__":
+    main()

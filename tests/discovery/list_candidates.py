@@ -12,10 +12,9 @@ from pathlib import Path
 CONSTANTS = {
     "initial_yield_stress": 1.0e7,
     "annihilation_coefficient": 2.0,
-    "dislocation_energy": 1.5,
 }
-# The same physics as an effect under another name: only tables of twins have them in the list.
-TWINS = {"drag_slope": 1.0e-8, "taylor_quinney": 0.1}
+# The same physics as an effect, under another name: only tables of twins have it in their list.
+TWINS = {"drag_slope": 1.0e-8}
 
 
 def solver_list(solver: Path, what: str) -> list[dict]:

@@ -1,7 +1,7 @@
-"""Writes the blind tables, and what each hides in a sealed folder of its own.
+"""Writes blind tables, and what each hides in a sealed folder of its own.
 
 /usr/bin/python3 tests/discovery/make_tables.py --study tests/discovery/study \\
-    --runs sealed/runs --tables tables --sealed sealed/tables
+    --runs sealed/runs --tables tables --sealed sealed/tables t001 t002
 """
 
 import argparse
@@ -20,6 +20,7 @@ from specimens import DIAMETER_MM, LENGTH_MM, TEMPERATURE_K, ShotSet, shot_set
 
 HELD_BACK = 5  # one shot in so many
 BIAS = (0.015, 0.03)  # of the velocities that the gun reports
+DOUBLED = {"drag_slope": "phonon_drag"}  # constant -> effect of the same meaning
 SOURCE = "blind: computed, noise added"
 
 
@@ -30,9 +31,8 @@ def hideable(candidates: list[dict]) -> list[str]:
 
 def twins_of(candidates: list[dict]) -> list[str]:
     """Effects that a constant of the same meaning doubles."""
-    doubled = {"drag_slope": "phonon_drag", "taylor_quinney": "taylor_quinney_shift"}
     names = [item["name"] for item in candidates]
-    return [effect for constant, effect in doubled.items() if constant in names]
+    return [effect for constant, effect in DOUBLED.items() if constant in names]
 
 
 def read_runs(path: Path) -> tuple[np.ndarray, np.ndarray, dict]:
@@ -142,7 +142,7 @@ class Generator:
 
 def is_listed(name: str, which: str) -> bool:
     """Whether a list of candidates (all, twins, "without <effect>") has this one."""
-    if name in ("drag_slope", "taylor_quinney"):
+    if name in DOUBLED:
         return which == TWINS
     return which in (ALL, TWINS) or which != f"without {name}"
 
@@ -151,10 +151,13 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     for name in ("study", "runs", "tables", "sealed"):
         parser.add_argument(f"--{name}", type=Path, required=True)
+    parser.add_argument("ids", nargs="+")
     options = parser.parse_args()
     generator = Generator(options.study, options.runs)
     options.sealed.mkdir(parents=True, exist_ok=True)
     for table in generator.tables():
+        if table.id not in options.ids:
+            continue
         rows, truth = generator.make(table)
         write_table(options.tables / table.id / "measurements.csv", rows)
         (options.sealed / f"{table.id}.json").write_text(json.dumps(truth, indent=1) + "\n")

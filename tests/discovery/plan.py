@@ -9,8 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 
 SEED = 20230816
-SETS = 10
-NULLS_A_SET = 12
+SETS = 8
+NULLS_A_SET = 13
 CORRUPTED = 12
 BIASED = 6
 NOISES = 3  # tables of a variant with something hidden

@@ -12,8 +12,8 @@ import numpy as np
 from make_design import design, write_design
 from study import design_settings, read_study
 
-POINTS_A_SHAPE = 16
-FINER_A_SHAPE = 8  # of these, again at the next fidelity
+POINTS_A_SHAPE = 12
+FINER_A_SHAPE = 6  # of these, again at the next fidelity
 SEED_SHIFT = 1000  # other points and grains than the database's
 
 

@@ -19,8 +19,10 @@ TRUTHS = {
     "immobilization_velocity": (0.3, 1.4),
 }
 # Neither the database's coarse (5 and 8) nor the finer signatures' standard (8 and 16).
-ELEMENTS_ACROSS_RADIUS = (6, 7)
-GRAINS_PER_POINT = (10, 12)
+NUMERICS = (
+    {"elements_across_radius": 6, "grains_per_point": 16},
+    {"elements_across_radius": 7, "grains_per_point": 4},
+)
 SHOT_INPUTS = ["velocity_m_s", "initial_diameter_mm", "length_to_diameter", "initial_temperature_K"]
 
 
@@ -60,10 +62,7 @@ def shot_set(index: int, seed: int) -> ShotSet:
     return ShotSet(
         index,
         parameters,
-        {
-            "elements_across_radius": int(random.choice(ELEMENTS_ACROSS_RADIUS)),
-            "grains_per_point": int(random.choice(GRAINS_PER_POINT)),
-        },
+        NUMERICS[index % len(NUMERICS)],
         [shape for shape in SHAPES for _ in range(VELOCITIES_A_SHAPE)],
         np.round(velocities, 2),
         random.integers(1, 2**31, size=velocities.size),

@@ -43,6 +43,12 @@ def write_part(source: Path, target: Path, dropped: list[dict]) -> None:
     os.replace(partial, target)
 
 
+def write_candidates(path: Path, listed: list[dict]) -> None:
+    """As `calibrate diagnose` reads them; `typical` was for the signatures' design."""
+    told = [{key: item[key] for key in item if key != "typical"} for item in listed]
+    path.write_text(json.dumps({"candidates": told}, indent=1) + "\n")
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--study", type=Path, required=True)
@@ -55,8 +61,7 @@ def main() -> None:
         folder.mkdir(parents=True, exist_ok=True)
         listed = [item for item in candidates if is_listed(item["name"], which)]
         dropped = [item for item in candidates if item not in listed]
-        text = json.dumps({"candidates": listed}, indent=1)
-        (folder / "candidates.json").write_text(text + "\n")
+        write_candidates(folder / "candidates.json", listed)
         for part in ("signatures.h5", "signatures_finer.h5"):
             write_part(options.study / part, folder / part, dropped)
 

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from candidate_lists import write_candidates, write_part
 from make_tables import is_listed
 from network import Network
 from plan import ALL
@@ -30,12 +31,10 @@ def run(program: str, *arguments) -> str:
 @pytest.fixture(scope="module")
 def listed(tmp_path_factory):
     """The list of candidates without the constants that double an effect."""
-    from candidate_lists import write_part
-
     folder = tmp_path_factory.mktemp("list")
     candidates = json.loads((STUDY / "candidates.json").read_text())["candidates"]
     kept = [item for item in candidates if is_listed(item["name"], ALL)]
-    (folder / "candidates.json").write_text(json.dumps({"candidates": kept}))
+    write_candidates(folder / "candidates.json", kept)
     dropped = [item for item in candidates if item not in kept]
     for part in ("signatures.h5", "signatures_finer.h5"):
         write_part(STUDY / part, folder / part, dropped)

@@ -135,6 +135,11 @@ def amplitude_covered(case: Case) -> bool:
     return found["lower95"] <= case.truth["effects"][name] <= found["upper95"]
 
 
+def _has_interval(case: Case) -> bool:
+    found = case.candidate(case.hidden[0]) if case.kind == "effect" else None
+    return found is not None and found["lower95"] is not None
+
+
 def _is(kind: str) -> Callable[[Case], bool]:
     return lambda case: case.kind == kind
 
@@ -212,7 +217,7 @@ QUESTIONS = [
     ),
     Question(
         "the amplitude's 95 % interval covers",
-        lambda case: case.kind == "effect" and case.candidate(case.hidden[0]) is not None,
+        _has_interval,
         amplitude_covered,
         0.90,
         0.99,

@@ -1,19 +1,27 @@
 # The chain from a study to its report:
 #   snakemake --cores all --config study=copper_measured
 #   snakemake --cores all results/paper_design/report.html
+#   snakemake --cores all results/paper_design/diagnosis.html
 configfile: "workflow/config.yaml"
 
 
 include: "workflow/rules/common.smk"
+include: "workflow/rules/common_revisions.smk"
+include: "workflow/rules/common_signatures.smk"
 include: "workflow/rules/design.smk"
 include: "workflow/rules/runs.smk"
+include: "workflow/rules/outlines.smk"
 include: "workflow/rules/emulator.smk"
 include: "workflow/rules/sample.smk"
 include: "workflow/rules/compare.smk"
+include: "workflow/rules/confirm.smk"
+include: "workflow/rules/ladder.smk"
+include: "workflow/rules/diagnose.smk"
 include: "workflow/rules/report.smk"
+include: "workflow/rules/diagnosis_page.smk"
 
 
 rule all:
     default_target: True
     input:
-        f"results/{config['study']}/report.html",
+        targets_of_study(config["study"]),

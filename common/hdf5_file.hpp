@@ -35,6 +35,8 @@ class Hdf5Writer {
                    const std::string& on = "/");
     void attribute(const std::string& name, const std::vector<std::int64_t>& integers,
                    const std::string& on = "/");
+    void attribute(const std::string& name, const std::vector<double>& numbers,
+                   const std::string& on = "/");
     /// A text of fixed length in ASCII, which some readers insist on.
     void ascii_attribute(const std::string& name, const std::string& text,
                          const std::string& on = "/");

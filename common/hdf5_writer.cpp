@@ -148,6 +148,12 @@ void Hdf5Writer::attribute(const std::string& name,
                     integers.data());
 }
 
+void Hdf5Writer::attribute(const std::string& name, const std::vector<double>& numbers,
+                           const std::string& on) {
+    write_attribute(file_, path_, name, on, H5T_NATIVE_DOUBLE, {numbers.size()},
+                    numbers.data());
+}
+
 void Hdf5Writer::ascii_attribute(const std::string& name, const std::string& text,
                                  const std::string& on) {
     const Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose);

@@ -19,6 +19,8 @@ int main(int argc, char** argv) {
     app.footer(
         "Examples:\n"
         "  emulator train database.h5 --config train.json --out emulator.json\n"
+        "  emulator train wider.h5 --config wider.json --from emulator.json --out "
+        "wider_emulator.json\n"
         "  emulator validate emulator.json database.h5\n"
         "  emulator predict emulator.json points.csv\n"
         "  emulator predict emulator.json --set velocity_m_s=190 --category "
@@ -32,6 +34,9 @@ int main(int argc, char** argv) {
     train->add_option("--config", training.config, "What to learn, and how (JSON)")
         ->required();
     train->add_option("--out", training.out, "Emulator file to write (JSON)")->required();
+    train->add_option("--from", training.from,
+                      "Emulator of fewer inputs to go on from (JSON); layers and neurons "
+                      "stay its own");
     train->add_option("--threads", training.threads, "Members trained at once")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();

@@ -19,6 +19,8 @@ json to_json(const ShotComparison& shot, const std::vector<std::string>& sizes) 
                {"initial_length_mm", datum.shot.initial_length_mm},
                {"source", datum.shot.source},
                {"sizes", json::array()}};
+    for (const auto& row : shot.covariance.rowwise())
+        entry["covariance_mm2"].push_back(std::vector<double>(row.begin(), row.end()));
     for (Eigen::Index i = 0; i < shot.residual.size(); ++i) {
         const auto column = datum.columns[static_cast<std::size_t>(i)];
         entry["sizes"].push_back({{"size", sizes[static_cast<std::size_t>(column)]},
@@ -43,6 +45,7 @@ json to_json(const ResidualGroup& group) {
             {"rms_relative", group.rms_relative},
             {"mean_relative", group.mean_relative},
             {"mean_standardised", group.mean_standardised},
+            {"mean_whitened", group.mean_whitened},
             {"whitened_rms", group.whitened_rms},
             {"words", group.words}};
 }

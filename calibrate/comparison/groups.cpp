@@ -35,15 +35,19 @@ std::vector<Residual> list_residuals(const std::vector<ShotComparison>& shots,
 }
 
 ResidualGroup summarise_group(const std::string& by, const std::string& key,
-                              const std::vector<const Residual*>& members) {
-    ResidualGroup group{by, key, members.front()->size, members.front()->third};
+                              const std::vector<const Residual*>& members,
+                              bool has_one_shape) {
+    const Residual& first = *members.front();
+    ResidualGroup group{by, key, first.size, first.shape, first.third};
     const auto n = static_cast<double>(members.size());
     for (const Residual* r : members) {
         group.rms_relative += r->relative * r->relative / n;
         group.mean_relative += r->relative / n;
         group.mean_standardised += r->standardised / n;
+        group.mean_whitened += r->whitened / n;
         group.whitened_rms += r->whitened * r->whitened / n;
         if (r->size != group.size) group.size.clear();
+        if (has_one_shape || r->shape != group.shape) group.shape.clear();
         if (r->third != group.velocity_third) group.velocity_third.clear();
     }
     group.n = members.size();
@@ -58,6 +62,10 @@ void add_groups(std::vector<ResidualGroup>& groups, const std::string& by,
                 const std::vector<Residual>& residuals, const Key& key_of) {
     std::vector<std::string> order;
     std::map<std::string, std::vector<const Residual*>> members;
+    const bool has_one_shape =
+        std::all_of(residuals.begin(), residuals.end(), [&](const Residual& residual) {
+            return residual.shape == residuals.front().shape;
+        });
     for (const Residual& residual : residuals) {
         const std::string key = key_of(residual);
         auto& list = members[key];
@@ -65,7 +73,7 @@ void add_groups(std::vector<ResidualGroup>& groups, const std::string& by,
         list.push_back(&residual);
     }
     for (const std::string& key : order)
-        groups.push_back(summarise_group(by, key, members[key]));
+        groups.push_back(summarise_group(by, key, members[key], has_one_shape));
 }
 
 }  // namespace

@@ -22,11 +22,14 @@ struct ResidualGroup {
     std::string by;    ///< "size", "shape", "lot", "velocity_third", "use", ...
     std::string key;   ///< its value; parts of a combination are joined by " x "
     std::string size;  ///< the one size of all its data, or empty
+    /// The one shape of all its data; empty if several, or if the table has no other.
+    std::string shape;
     std::string velocity_third;  ///< the one third of all its data, or empty
     std::size_t n = 0;
     double rms_relative = 0;
     double mean_relative = 0;  ///< of (measured - predicted) / scale
     double mean_standardised = 0;
+    double mean_whitened = 0;
     double whitened_rms = 0;
     std::string words{};
 };

@@ -1,7 +1,9 @@
 #include "calibrate/comparison/words.hpp"
 
 #include "calibrate/comparison/groups.hpp"
+#include "calibrate/measurements/vocabulary.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/core.h>
@@ -10,6 +12,11 @@ namespace taylorcal::calibrate {
 namespace {
 
 constexpr double clear = 2.5;  // standard errors, 1 % two-sided
+
+std::string with_spaces(std::string name) {
+    std::replace(name.begin(), name.end(), '_', ' ');
+    return name;
+}
 
 bool is_beyond_errors(const ResidualGroup& group) {
     // The standard error of a root mean square of n unit normals is about 1/sqrt(2 n).
@@ -24,32 +31,41 @@ bool has_direction(const ResidualGroup& group) {
 
 std::string direction(const ResidualGroup& group) {
     const bool too_small = group.mean_relative > 0;
+    if (is_outline_score(group.size)) return too_small ? "too low" : "too high";
     if (group.size.find("diameter") != std::string::npos)
         return too_small ? "too narrow" : "too wide";
     return too_small ? "too short" : "too long";
 }
 
+/// What the per cent of a group are of, where it is not the size itself.
+std::string reference_in_words(const std::string& size) {
+    if (is_outline_score(size)) return " of D0";
+    return size == "undeformed_length_mm" ? " of L0" : "";
+}
+
 std::string subject(const ResidualGroup& group) {
     const std::string size = group.size.empty() ? "" : size_in_words(group.size);
-    if (group.by == "lot" || group.by == "shape") {
-        std::string key = group.by == "lot" ? "lot " + group.key : group.key;
-        for (char& c : key)
-            if (c == '_') c = ' ';
-        return size.empty() ? key : key + ", " + size;
-    }
     if (group.by == "use")
         return group.key == use_word(Use::calibrate) ? "fitted shots" : "held-back shots";
+    std::string owner =
+        group.by == "shape" ? shape_in_words(group.key) : shape_in_words(group.shape);
+    if (group.by == "lot") owner = "lot " + with_spaces(group.key);
+    if (!owner.empty()) return size.empty() ? owner : owner + ", " + size;
     return size.empty() ? "all sizes" : size;
 }
 
 }  // namespace
 
 std::string size_in_words(const std::string& size) {
+    if (is_outline_score(size)) return fmt::format("outline, component {}", size.back());
     if (size == "diameter_at_0p2L0_mm") return "diameter at 0.2 L0";
-    std::string words = size.substr(0, size.rfind("_mm"));
-    for (char& c : words)
-        if (c == '_') c = ' ';
-    return words;
+    return with_spaces(size.substr(0, size.rfind("_mm")));
+}
+
+std::string shape_in_words(const std::string& shape) {
+    if (shape == "reduced_head_4mm") return "4-mm head";
+    if (shape == "reduced_head_3mm") return "3-mm head";
+    return with_spaces(shape);
 }
 
 std::string group_words(const ResidualGroup& group) {
@@ -62,8 +78,8 @@ std::string group_words(const ResidualGroup& group) {
     if (has_direction(group))
         return fmt::format("{} predicted {:.1f} %{} {}{} {}", subject(group),
                            100 * std::abs(group.mean_relative),
-                           group.size == "undeformed_length_mm" ? " of L0" : "",
-                           direction(group), where, weight);
+                           reference_in_words(group.size), direction(group), where,
+                           weight);
     if (is_beyond_errors(group))
         return fmt::format("{} off by {:.1f} % rms{}, beyond the errors {}",
                            subject(group), 100 * group.rms_relative, where, weight);

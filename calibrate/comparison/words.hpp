@@ -9,6 +9,9 @@ struct ResidualGroup;
 /// "final length" of "final_length_mm".
 std::string size_in_words(const std::string& size);
 
+/// "4-mm head" of "reduced_head_4mm".
+std::string shape_in_words(const std::string& shape);
+
 /// What a group's residuals say, e.g. "final length predicted 3.1 % too short at high
 /// velocity (12 values, rms 4.2 standard errors)". A direction is named when the mean
 /// lies beyond 2.5 of its own standard errors, and only for groups of one size.

@@ -1,5 +1,6 @@
 #include "calibrate/measurements/data_set.hpp"
 
+#include "calibrate/measurements/vocabulary.hpp"
 #include "common/errors.hpp"
 
 #include <algorithm>
@@ -9,6 +10,12 @@
 
 namespace taylorcal::calibrate {
 namespace {
+
+/// What relative deviations of a measured size refer to [mm].
+double scale_of(const Shot& shot, const Measurement& m) {
+    if (is_outline_score(m.size)) return shot.initial_diameter_mm;
+    return m.size == "undeformed_length_mm" ? shot.initial_length_mm : m.value_mm;
+}
 
 Datum make_datum(const Shot& shot, const std::vector<std::string>& sizes) {
     Datum datum;
@@ -20,8 +27,7 @@ Datum make_datum(const Shot& shot, const std::vector<std::string>& sizes) {
                 datum.columns.push_back(static_cast<Eigen::Index>(c));
                 values.push_back(m.value_mm);
                 sds.push_back(m.sd_mm);
-                scales.push_back(m.size == "undeformed_length_mm" ? shot.initial_length_mm
-                                                                  : m.value_mm);
+                scales.push_back(scale_of(shot, m));
             }
     const auto count = static_cast<Eigen::Index>(values.size());
     datum.measured_mm = Eigen::Map<Eigen::VectorXd>(values.data(), count);

@@ -18,7 +18,8 @@ struct Datum {
     Eigen::VectorXd measured_mm;
     Eigen::VectorXd sd_mm;
     /// What relative deviations refer to: the measured size, but the initial length for
-    /// the undeformed part, of which nothing may be left.
+    /// the undeformed part, of which nothing may be left, and the initial diameter for a
+    /// score of the outline, which may be zero.
     Eigen::VectorXd scale_mm;
 };
 

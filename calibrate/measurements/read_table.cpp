@@ -6,6 +6,7 @@
 #include "common/json_reader.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include <fmt/core.h>
@@ -79,6 +80,15 @@ struct Row {
         if (table.has(column) && table.number(row, column) == 0.0) return 0.0;
         return positive_if_any(column);
     }
+    std::optional<double> finite_if_any(const std::string& column) const {
+        if (!table.has(column)) return std::nullopt;
+        const std::optional<double> value = table.number(row, column);
+        if (value && !std::isfinite(*value))
+            table.fail(row, column,
+                       "is not a finite number. Correct it, or leave the cell empty "
+                       "where nothing was measured.");
+        return value;
+    }
     double positive(const std::string& column) const {
         const std::optional<double> value = positive_if_any(column);
         if (!value)
@@ -87,12 +97,16 @@ struct Row {
     }
 };
 
+std::optional<double> read_size(const Row& row, const std::string& size) {
+    if (is_outline_score(size)) return row.finite_if_any(size);
+    return size == "undeformed_length_mm" ? row.at_least_zero_if_any(size)
+                                          : row.positive_if_any(size);
+}
+
 std::vector<Measurement> read_sizes(const Row& row) {
     std::vector<Measurement> sizes;
     for (const std::string& column : size_columns()) {
-        const std::optional<double> value = column == "undeformed_length_mm"
-                                                ? row.at_least_zero_if_any(column)
-                                                : row.positive_if_any(column);
+        const std::optional<double> value = read_size(row, column);
         if (!value) continue;
         const std::optional<double> sd = row.positive_if_any(column + "_sd");
         if (!sd)

@@ -16,11 +16,22 @@ const std::vector<std::string>& use_words() {
 }
 
 const std::vector<std::string>& size_columns() {
-    static const std::vector<std::string> columns{
-        "final_length_mm",     "impact_diameter_mm",     "head_length_mm",
-        "rear_length_mm",      "transition_diameter_mm", "undeformed_length_mm",
-        "diameter_at_0p2L0_mm"};
+    static const std::vector<std::string> columns{"final_length_mm",
+                                                  "impact_diameter_mm",
+                                                  "head_length_mm",
+                                                  "rear_length_mm",
+                                                  "transition_diameter_mm",
+                                                  "undeformed_length_mm",
+                                                  "diameter_at_0p2L0_mm",
+                                                  "outline_pc_1",
+                                                  "outline_pc_2",
+                                                  "outline_pc_3",
+                                                  "outline_pc_4"};
     return columns;
+}
+
+bool is_outline_score(const std::string& size) {
+    return size.rfind("outline_pc_", 0) == 0;
 }
 
 const std::vector<std::string>& required_columns() {

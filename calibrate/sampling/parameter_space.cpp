@@ -1,9 +1,18 @@
 #include "calibrate/sampling/parameter_space.hpp"
 
+#include "calibrate/sampling/truncated_normal.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 namespace taylorcal::calibrate {
+namespace {
+
+TruncatedNormal normal_prior(const Parameter& parameter) {
+    return {*parameter.normal_scale, parameter.lower, parameter.upper};
+}
+
+}  // namespace
 
 ParameterSpace::ParameterSpace(std::vector<Parameter> parameters,
                                std::vector<std::string> lots)
@@ -28,6 +37,7 @@ const Parameter& ParameterSpace::parameter(std::size_t i) const {
 
 double ParameterSpace::plain(const Parameter& parameter, double unit) {
     const double u = std::clamp(unit, 0.0, 1.0);
+    if (parameter.normal_scale) return normal_prior(parameter).quantile(u);
     if (!parameter.log_uniform)
         return parameter.lower + u * (parameter.upper - parameter.lower);
     const double low = std::log(parameter.lower), high = std::log(parameter.upper);
@@ -40,6 +50,7 @@ double ParameterSpace::value(std::size_t i, double unit) const {
 
 double ParameterSpace::unit(std::size_t i, double value) const {
     const Parameter& p = parameter(i);
+    if (p.normal_scale) return normal_prior(p).cdf(value);
     if (!p.log_uniform) return (value - p.lower) / (p.upper - p.lower);
     return std::log(value / p.lower) / std::log(p.upper / p.lower);
 }

@@ -4,6 +4,7 @@
 #include "common/json_reader.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include <fmt/core.h>
@@ -11,14 +12,43 @@
 namespace taylorcal::calibrate {
 namespace {
 
+/// Reads the scale of a normal prior and checks that the range suits it.
+double read_normal_scale(const JsonReader& reader, const std::string& prior, double lower,
+                         double upper) {
+    const double scale = reader.number("scale");
+    if (!(scale > 0))
+        reader.fail("scale",
+                    fmt::format("= {} is not the standard deviation of a {} prior "
+                                "(expected a positive number).",
+                                scale, prior));
+    if (prior == "half_normal" && lower < 0)
+        reader.fail("lower", fmt::format("= {} is below 0, where a half_normal prior "
+                                         "ends. Raise it or use normal.",
+                                         lower));
+    // Beyond, the prior's mass within the range is lost in rounding.
+    constexpr double farthest = 6;
+    const double nearest = std::clamp(0.0, lower, upper);
+    if (std::abs(nearest) > farthest * scale)
+        reader.fail("scale",
+                    fmt::format("= {} leaves no {} prior around 0 in the range {} to {}. "
+                                "Raise it or move the range.",
+                                scale, prior, lower, upper));
+    return scale;
+}
+
 Parameter read_parameter(const JsonReader& reader) {
-    reader.only({"name", "lower", "upper", "prior", "scope"});
     Parameter parameter;
     parameter.name = reader.text("name");
     parameter.lower = reader.number("lower");
     parameter.upper = reader.number("upper");
-    parameter.log_uniform =
-        reader.word("prior", {"uniform", "log_uniform"}, "uniform") == "log_uniform";
+    const std::string prior = reader.word(
+        "prior", {"uniform", "log_uniform", "half_normal", "normal"}, "uniform");
+    const bool is_normal = prior == "half_normal" || prior == "normal";
+    if (is_normal)
+        reader.only({"name", "lower", "upper", "prior", "scale", "scope"});
+    else
+        reader.only({"name", "lower", "upper", "prior", "scope"});
+    parameter.log_uniform = prior == "log_uniform";
     parameter.per_lot =
         reader.word("scope", {"shared", "per_lot"}, "shared") == "per_lot";
     if (!(parameter.upper > parameter.lower))
@@ -29,6 +59,9 @@ Parameter read_parameter(const JsonReader& reader) {
                     fmt::format("= {} cannot bound a log_uniform prior (expected "
                                 "a positive number). Raise it or use uniform.",
                                 parameter.lower));
+    if (is_normal)
+        parameter.normal_scale =
+            read_normal_scale(reader, prior, parameter.lower, parameter.upper);
     return parameter;
 }
 

@@ -17,6 +17,9 @@ struct Parameter {
     double upper = 1;
     bool log_uniform = false;  ///< uniform in the logarithm instead of in the value
     bool per_lot = false;      ///< one value a lot of metal instead of one for all
+    /// Standard deviation of a normal prior around 0, cut off at the range's ends (half
+    /// normal when lower = 0): of an effect, which is absent at 0.
+    std::optional<double> normal_scale = std::nullopt;
 };
 
 /// Relative spread that no other error explains, with a half-normal prior.

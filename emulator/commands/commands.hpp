@@ -10,6 +10,7 @@ struct TrainArguments {
     std::filesystem::path database;
     std::filesystem::path config;
     std::filesystem::path out;
+    std::filesystem::path from;  ///< Emulator to go on from; empty for none.
     int threads = 1;
 };
 

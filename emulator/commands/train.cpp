@@ -1,5 +1,6 @@
 #include "common/atomic_file.hpp"
 #include "emulator/commands/commands.hpp"
+#include "emulator/inference/emulator.hpp"
 #include "emulator/training/quality.hpp"
 #include "emulator/training/train_emulator.hpp"
 
@@ -14,7 +15,11 @@ int train(const TrainArguments& arguments) {
     for (const OutputChoice& output : config.outputs) outputs.push_back(output.name);
     const Dataset data =
         read_dataset(arguments.database, inputs, config.category, outputs);
-    const Model model = train_emulator(config, data, arguments.threads);
+    const Model model =
+        arguments.from.empty()
+            ? train_emulator(config, data, arguments.threads)
+            : train_further(Emulator::from_file(arguments.from).model(),
+                            arguments.from.string(), config, data, arguments.threads);
     write_text_atomically(arguments.out, to_json(model).dump() + "\n");
     spdlog::info(
         "held-out rows: RMS {:.3f} %, largest error {:.2f} % (of each output's mean); "

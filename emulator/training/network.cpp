@@ -17,7 +17,7 @@ constexpr double silu_second_moment = 0.35577;
 }  // namespace
 
 template <typename Scalar>
-Network<Scalar>::Network(const std::vector<Eigen::Index>& widths, std::uint64_t seed) {
+void Network<Scalar>::make_room(const std::vector<Eigen::Index>& widths) {
     Eigen::Index size = 0;
     for (std::size_t i = 0; i + 1 < widths.size(); ++i) {
         const Eigen::Index weights = widths[i + 1] * widths[i];
@@ -27,6 +27,16 @@ Network<Scalar>::Network(const std::vector<Eigen::Index>& widths, std::uint64_t 
     parameters_ = Vector::Zero(size);
     gradient_ = Vector::Zero(size);
     is_weight_ = Vector::Zero(size);
+    for (const Place& place : places_)
+        is_weight_.segment(place.weights, place.bias - place.weights) = 1;
+    activations_.resize(places_.size());
+    slopes_.resize(places_.size());
+    deltas_.resize(places_.size());
+}
+
+template <typename Scalar>
+Network<Scalar>::Network(const std::vector<Eigen::Index>& widths, std::uint64_t seed) {
+    make_room(widths);
     const RandomStream random(seed, streams::weights);
     for (std::size_t layer = 0; layer < places_.size(); ++layer) {
         const Place& place = places_[layer];
@@ -35,12 +45,22 @@ Network<Scalar>::Network(const std::vector<Eigen::Index>& widths, std::uint64_t 
         for (Eigen::Index i = place.weights; i < place.bias; ++i) {
             parameters_[i] = static_cast<Scalar>(
                 random.normal(static_cast<std::uint64_t>(i)) / std::sqrt(incoming));
-            is_weight_[i] = 1;
         }
     }
-    activations_.resize(places_.size());
-    slopes_.resize(places_.size());
-    deltas_.resize(places_.size());
+}
+
+template <typename Scalar>
+Network<Scalar>::Network(const std::vector<Layer>& layers) {
+    std::vector<Eigen::Index> widths = {layers.front().weights.cols()};
+    for (const Layer& layer : layers) widths.push_back(layer.weights.rows());
+    make_room(widths);
+    for (std::size_t i = 0; i < layers.size(); ++i) {
+        const Place& place = places_[i];
+        Eigen::Map<RowMajor>(parameters_.data() + place.weights, place.rows, place.cols) =
+            layers[i].weights.template cast<Scalar>();
+        parameters_.segment(place.bias, place.rows) =
+            layers[i].bias.array().template cast<Scalar>();
+    }
 }
 
 template <typename Scalar>

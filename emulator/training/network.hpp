@@ -21,6 +21,8 @@ class Network {
     /// `widths`: inputs, neurons of each hidden layer, outputs. Weights are normal with
     /// the variance that keeps the size of a signal through SiLU layers, biases zero.
     Network(const std::vector<Eigen::Index>& widths, std::uint64_t seed);
+    /// A network that was trained before.
+    explicit Network(const std::vector<Layer>& layers);
 
     Vector& parameters() { return parameters_; }
     const Vector& parameters() const { return parameters_; }
@@ -45,6 +47,7 @@ class Network {
             bias;  ///< Sizes and offsets in the flat vector.
     };
     Eigen::Map<const RowMajor> weights(std::size_t layer) const;
+    void make_room(const std::vector<Eigen::Index>& widths);
     void add_forward(std::size_t layer);
 
     std::vector<Place> places_;

@@ -7,6 +7,7 @@
 #include "emulator/training/quality.hpp"
 #include "emulator/training/samples.hpp"
 #include "emulator/training/train_member.hpp"
+#include "emulator/training/widen.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -109,27 +110,22 @@ void judge(Model& model, const Dataset& data, const Split& split) {
                                     data.outputs, data.categories, names);
 }
 
-}  // namespace
-
-Model train_emulator(const TrainConfig& given, const Dataset& data, int threads) {
-    TrainConfig config = given;
-    const Split split = split_rows(data, config.validation_fraction, config.seed);
-    Model model = describe(config, data, split);
-    if (config.neurons == 0) {
-        const auto varying = std::ranges::count_if(model.inputs, &InputInfo::used);
-        config.neurons = static_cast<int>(4 * varying + 1);
-    }
+/// Trains the members of a described model: from random weights, or from its members if
+/// it has some.
+void learn(Model& model, const TrainConfig& config, const Dataset& data,
+           const Split& split, int threads) {
     const Samples training = standardise(model, data, split.training);
     const Samples validation = standardise(model, data, split.validation);
-    spdlog::info(
-        "{} rows to learn from, {} held out, {} dropped; {} layers of {} neurons, {} "
-        "members",
-        split.training.size(), split.validation.size(), data.dropped_rows,
-        config.hidden_layers, config.neurons, config.members);
+    std::vector<MemberSettings> settings = member_settings(config, training);
+    if (!model.members.empty())
+        for (std::size_t i = 0; i < settings.size(); ++i)
+            settings[i].start = model.members[i % model.members.size()].layers;
+    spdlog::info("{} rows to learn from, {} held out, {} dropped; {} members{}",
+                 split.training.size(), split.validation.size(), data.dropped_rows,
+                 config.members, model.members.empty() ? "" : ", trained before");
 
     const auto start = std::chrono::steady_clock::now();
-    model.members =
-        train_members(member_settings(config, training), training, validation, threads);
+    model.members = train_members(settings, training, validation, threads);
     const std::chrono::duration<double> elapsed =
         std::chrono::steady_clock::now() - start;
     const double shown =
@@ -145,6 +141,29 @@ Model train_emulator(const TrainConfig& given, const Dataset& data, int threads)
     model.best = static_cast<std::size_t>(best - model.members.begin());
     model.provenance = provenance("emulator train", config.seed, config.as_given);
     judge(model, data, split);
+}
+
+}  // namespace
+
+Model train_emulator(const TrainConfig& given, const Dataset& data, int threads) {
+    TrainConfig config = given;
+    const Split split = split_rows(data, config.validation_fraction, config.seed);
+    Model model = describe(config, data, split);
+    if (config.neurons == 0) {
+        const auto varying = std::ranges::count_if(model.inputs, &InputInfo::used);
+        config.neurons = static_cast<int>(4 * varying + 1);
+    }
+    learn(model, config, data, split, threads);
+    return model;
+}
+
+Model train_further(const Model& old, const std::string& where, const TrainConfig& config,
+                    const Dataset& data, int threads) {
+    const Split split = split_rows(data, config.validation_fraction, config.seed);
+    Model model = describe(config, data, split);
+    widen(model, old, where);
+    learn(model, config, data, split, threads);
+    model.provenance["from"] = old.provenance;
     return model;
 }
 

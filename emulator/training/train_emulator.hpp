@@ -4,10 +4,18 @@
 #include "emulator/training/dataset.hpp"
 #include "emulator/training/train_config.hpp"
 
+#include <string>
+
 namespace taylorcal::emulator {
 
 /// Trains all members, one a thread, picks the best on held-out rows and measures it. The
 /// result is the same for any number of threads. NumericalError if all members diverge.
 Model train_emulator(const TrainConfig& config, const Dataset& data, int threads);
+
+/// Trains the networks of `old`, read from `where`, on a database with further inputs:
+/// each member starts from an old one, which it equals until the first step (see
+/// widen.hpp). Layers and neurons are the old ones, whatever the configuration says.
+Model train_further(const Model& old, const std::string& where, const TrainConfig& config,
+                    const Dataset& data, int threads);
 
 }  // namespace taylorcal::emulator

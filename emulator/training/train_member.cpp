@@ -73,7 +73,9 @@ double validation_rms(FloatNetwork& network, const Batch& held_out) {
 Member train_member(const MemberSettings& settings, const Samples& training,
                     const Samples& validation,
                     const std::function<void(double)>& after_epoch) {
-    FloatNetwork network(settings.widths, settings.seed);
+    const bool goes_on = !settings.start.empty();
+    FloatNetwork network = goes_on ? FloatNetwork(settings.start)
+                                   : FloatNetwork(settings.widths, settings.seed);
     Adam<float> adam(network.parameters().size());
     const RandomStream random(settings.seed, streams::shuffle);
 
@@ -90,7 +92,8 @@ Member train_member(const MemberSettings& settings, const Samples& training,
     const int epochs_between_looks = std::max(1, settings.epochs / 500);
     Batch batch;
     FloatNetwork::Vector best = network.parameters();
-    double lowest = std::numeric_limits<double>::infinity();
+    double lowest = goes_on ? validation_rms(network, held_out)
+                            : std::numeric_limits<double>::infinity();
     for (int epoch = 0; epoch < settings.epochs; ++epoch) {
         shuffle(order, random, epoch);
         for (std::size_t b = 0; b < batches; ++b) {

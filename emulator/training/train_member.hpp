@@ -14,10 +14,12 @@ struct MemberSettings {
     int batch_size = 32;
     double learning_rate = 1e-2;  ///< The largest.
     int epochs = 1000;
+    std::vector<Layer> start;  ///< Layers to go on from; empty: random ones of `widths`.
 };
 
 /// Trains one member by Adam on mini-batches and keeps the state that was best on the
-/// held-out rows. `after_epoch` is told the lowest validation RMS so far.
+/// held-out rows, the first one too if it was trained before. `after_epoch` is told the
+/// lowest validation RMS so far.
 Member train_member(const MemberSettings& settings, const Samples& training,
                     const Samples& validation,
                     const std::function<void(double)>& after_epoch);

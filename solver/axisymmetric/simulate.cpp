@@ -4,6 +4,7 @@
 #include "solver/axisymmetric/cycle.hpp"
 #include "solver/axisymmetric/monitor.hpp"
 #include "solver/axisymmetric/profile.hpp"
+#include "solver/observe/outline.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -33,22 +34,31 @@ double ringing_period(const Body& body, double length) {
     return 2 * length / std::sqrt(young / body.parameters.initial_density);
 }
 
-/// Sizes summed over several moments.
-class SizeMean {
+/// Sizes and sampled outlines averaged over several moments.
+class ShapeMean {
   public:
-    void add(const observe::Sizes& sizes) {
-        const std::vector<double> values = observe::size_values(sizes);
-        sum_.resize(values.size(), 0.0);
-        for (std::size_t i = 0; i < values.size(); ++i) sum_[i] += values[i];
+    void add(const observe::DeformedProfile& profile) {
+        add_to(sizes_, observe::size_values(observe::measure(profile)));
+        add_to(outline_, observe::sample_outline(profile));
         ++count_;
     }
-    observe::Sizes mean() const {
-        const auto at = [&](std::size_t i) { return sum_[i] / count_; };
+    observe::Sizes sizes() const {
+        const auto at = [&](std::size_t i) { return sizes_[i] / count_; };
         return {at(0), at(1), at(2), at(3), at(4), at(5), at(6)};
+    }
+    std::vector<double> outline() const {
+        std::vector<double> mean = outline_;
+        for (double& radius : mean) radius /= count_;
+        return mean;
     }
 
   private:
-    std::vector<double> sum_;
+    static void add_to(std::vector<double>& sum, const std::vector<double>& values) {
+        sum.resize(values.size(), 0.0);
+        for (std::size_t i = 0; i < values.size(); ++i) sum[i] += values[i];
+    }
+    std::vector<double> sizes_;
+    std::vector<double> outline_;
     int count_ = 0;
 };
 
@@ -81,7 +91,7 @@ void run(const impact::ImpactCase& impact_case, Body& body,
         fixed_time ? impact_case.run_until_s : std::numeric_limits<double>::infinity();
     const double begun = thread_seconds();
     const double ringing = ringing_period(body, impact_case.shape.length());
-    SizeMean sizes;
+    ShapeMean shape;
     int samples = 0;
     std::int64_t cycles = 0;
     double stop_time = std::numeric_limits<double>::quiet_NaN();
@@ -98,7 +108,7 @@ void run(const impact::ImpactCase& impact_case, Body& body,
         if (fixed_time) {
             if (body.time >= impact_case.run_until_s * (1 - 1e-9)) break;
         } else if (body.time >= stop_time + ringing * (samples + 0.5) / size_samples) {
-            sizes.add(observe::measure(deformed_profile(body, impact_case.shape)));
+            shape.add(deformed_profile(body, impact_case.shape));
             if (++samples == size_samples) break;
         }
         if (++cycles % cycles_between_clock_reads == 0) {
@@ -112,7 +122,9 @@ void run(const impact::ImpactCase& impact_case, Body& body,
     }
     if (result.reason.empty()) result.status = impact::Status::stopped;
     result.profile = deformed_profile(body, impact_case.shape);
-    result.sizes = samples > 0 ? sizes.mean() : observe::measure(result.profile);
+    if (samples == 0) shape.add(result.profile);
+    result.sizes = shape.sizes();
+    result.outline_radius = shape.outline();
     monitor.report(body, stop_time, result);
     result.cpu_s = thread_seconds() - begun;
 }

@@ -3,7 +3,9 @@
 #include "common/atomic_file.hpp"
 #include "common/csv_table.hpp"
 #include "common/errors.hpp"
+#include "solver/observe/outline.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -32,6 +34,35 @@ RowMatrix table(const std::vector<FinishedRun>& runs,
 std::vector<double> row_values(const RowMatrix& values, std::size_t row) {
     const auto at = values.row(static_cast<Eigen::Index>(row));
     return {at.begin(), at.end()};
+}
+
+/// The outlines, where any run has one; rows without are NaN.
+void write_outlines(Hdf5Writer& file, std::vector<FinishedRun> runs) {
+    const auto has_outline = [](const FinishedRun& run) {
+        return !run.outline_radius.empty();
+    };
+    if (std::none_of(runs.begin(), runs.end(), has_outline)) return;
+    for (FinishedRun& run : runs)
+        run.outline_radius.resize(observe::outline_points,
+                                  std::numeric_limits<double>::quiet_NaN());
+    const auto& fractions = observe::outline_fractions();
+    file.matrix("outline_radius",
+                table(runs, &FinishedRun::outline_radius, observe::outline_points));
+    file.attribute("fractions", std::vector<double>(fractions.begin(), fractions.end()),
+                   "outline_radius");
+}
+
+/// One row a run, or no row at all in a database made before outlines were kept.
+RowMatrix read_outlines(const Hdf5Reader& file, const std::filesystem::path& path,
+                        Eigen::Index rows) {
+    if (!file.has("outline_radius")) return {};
+    RowMatrix outlines = file.matrix("outline_radius");
+    require(outlines.rows() == rows &&
+                outlines.cols() == static_cast<Eigen::Index>(observe::outline_points),
+            path.string() +
+                ": \"outline_radius\" has another size than this version "
+                "writes. Make the file again.");
+    return outlines;
 }
 
 void write_costs(const std::filesystem::path& path,
@@ -92,6 +123,7 @@ void write_database(const std::filesystem::path& path, const Database& database)
     file.matrix("descriptors", table(runs, &FinishedRun::descriptors,
                                      impact::descriptor_names().size()));
     file.attribute("names", impact::descriptor_names(), "descriptors");
+    write_outlines(file, runs);
     file.integers("status", status);
     file.texts("reason", reason);
     file.integers("steps", steps);
@@ -127,6 +159,7 @@ Database read_database(const std::filesystem::path& path) {
                 status.size() == rows && reason.size() == rows && steps.size() == rows &&
                 grain_updates.size() == rows,
             path.string() + ": its tables differ in length. Make the file again.");
+    const RowMatrix outlines = read_outlines(file, path, row_count);
     const auto costs = read_costs(cost_path(path));
     for (std::size_t row = 0; row < rows; ++row) {
         FinishedRun run;
@@ -135,6 +168,7 @@ Database read_database(const std::filesystem::path& path) {
         run.reason = reason[row];
         run.outputs = row_values(outputs, row);
         run.descriptors = row_values(descriptors, row);
+        if (outlines.rows() > 0) run.outline_radius = row_values(outlines, row);
         run.steps = steps[row];
         run.grain_updates = grain_updates[row];
         const auto cost = costs.find(run.run_id);

@@ -1,5 +1,7 @@
 #include "solver/commands/finished_run.hpp"
 
+#include "solver/observe/outline.hpp"
+
 #include <cmath>
 #include <limits>
 
@@ -33,6 +35,9 @@ FinishedRun row_of(std::int64_t run_id, const impact::ImpactResult& result) {
     run.reason = result.reason;
     run.outputs = finite_or_nan(observe::size_values(result.sizes));
     run.descriptors = finite_or_nan(impact::descriptor_values(result.descriptors));
+    run.outline_radius.assign(observe::outline_points, nan);
+    if (run.status != impact::Status::failed && !result.outline_radius.empty())
+        run.outline_radius = finite_or_nan(result.outline_radius);
     run.steps = result.steps;
     run.grain_updates = result.grain_updates;
     run.cpu_s = result.cpu_s;
@@ -45,6 +50,7 @@ FinishedRun failed_row(std::int64_t run_id, const std::string& reason) {
     run.reason = reason;
     run.outputs.assign(observe::size_names().size(), nan);
     run.descriptors.assign(impact::descriptor_names().size(), nan);
+    run.outline_radius.assign(observe::outline_points, nan);
     return run;
 }
 
@@ -54,6 +60,7 @@ nlohmann::json to_json(const FinishedRun& run) {
             {"reason", run.reason},
             {"outputs", run.outputs},
             {"descriptors", run.descriptors},
+            {"outline_radius", run.outline_radius},
             {"steps", run.steps},
             {"grain_updates", run.grain_updates},
             {"cpu_s", run.cpu_s}};
@@ -66,6 +73,7 @@ FinishedRun run_from_json(const nlohmann::json& line) {
     run.reason = line.at("reason").get<std::string>();
     run.outputs = numbers_or_nan(line.at("outputs"));
     run.descriptors = numbers_or_nan(line.at("descriptors"));
+    run.outline_radius = numbers_or_nan(line.at("outline_radius"));
     run.steps = line.at("steps").get<std::int64_t>();
     run.grain_updates = line.at("grain_updates").get<std::int64_t>();
     run.cpu_s = line.at("cpu_s").get<double>();

@@ -18,6 +18,9 @@ struct FinishedRun {
     std::string reason;
     std::vector<double> outputs;      ///< observe::size_names()
     std::vector<double> descriptors;  ///< impact::descriptor_names()
+    /// observe::sample_outline, NaN in a failed run; empty in a row of a database that
+    /// was made before outlines were kept.
+    std::vector<double> outline_radius;
     std::int64_t steps = 0;
     std::int64_t grain_updates = 0;
     double cpu_s = 0;

@@ -2,6 +2,7 @@
 
 #include "common/errors.hpp"
 
+#include <algorithm>
 #include <map>
 #include <memory>
 
@@ -27,6 +28,17 @@ void append(Database& whole, const Database& part) {
     extend(whole.runs, part.runs);
 }
 
+/// Adds the inputs that `design` lacks as columns of zeros.
+void add_zero_inputs(Design& design, const std::vector<std::string>& names) {
+    for (const std::string& name : names) {
+        if (std::ranges::find(design.input_names, name) != design.input_names.end())
+            continue;
+        design.input_names.push_back(name);
+        design.inputs.conservativeResize(Eigen::NoChange, design.inputs.cols() + 1);
+        design.inputs.rightCols(1).setZero();
+    }
+}
+
 /// The chunks' common provenance, or all that occur when they were computed differently.
 nlohmann::json joined(const std::vector<nlohmann::json>& records) {
     nlohmann::json distinct = nlohmann::json::array();
@@ -39,12 +51,14 @@ nlohmann::json joined(const std::vector<nlohmann::json>& records) {
 
 }  // namespace
 
-Database merge(const std::vector<std::string>& paths) {
+Database merge(const std::vector<std::string>& paths,
+               const std::vector<std::string>& zero_inputs) {
     Database whole;
     std::map<std::int64_t, std::string> owner;
     std::vector<nlohmann::json> records;
     for (const std::string& path : paths) {
-        const Database part = read_database(path);
+        Database part = read_database(path);
+        add_zero_inputs(part.design, zero_inputs);
         if (records.empty()) {
             whole.configuration = part.configuration;
             whole.design.input_names = part.design.input_names;
@@ -74,16 +88,22 @@ Database merge(const std::vector<std::string>& paths) {
 void add_merge(CLI::App& app) {
     struct Options {
         std::vector<std::string> chunks;
+        std::vector<std::string> zero_inputs;
         std::string out;
     };
     auto options = std::make_shared<Options>();
     CLI::App* command = app.add_subcommand("merge", "Join chunks of a database");
     command->add_option("chunks", options->chunks, "databases to join")->required();
     command->add_option("--out", options->out, "database to write (HDF5)")->required();
+    command->add_option("--zero-input", options->zero_inputs,
+                        "an input that is 0 in the databases without it; repeated");
     command->footer(
-        "Sample run:\n  solver merge chunk_0.h5 chunk_1.h5 --out database.h5");
-    command->callback(
-        [options] { write_database(options->out, merge(options->chunks)); });
+        "Sample runs:\n"
+        "  solver merge chunk_0.h5 chunk_1.h5 --out database.h5\n"
+        "  solver merge old.h5 chunk_0.h5 --zero-input anvil_friction --out new.h5");
+    command->callback([options] {
+        write_database(options->out, merge(options->chunks, options->zero_inputs));
+    });
 }
 
 }  // namespace taylorcal::commands

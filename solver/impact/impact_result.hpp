@@ -69,6 +69,8 @@ struct ImpactResult {
     observe::Sizes sizes;
     Descriptors descriptors;
     observe::DeformedProfile profile;  ///< the outline
+    /// observe::sample_outline over the moments of `sizes`; empty when nothing was read.
+    std::vector<double> outline_radius;
     std::vector<HistoryRecord> history;
     Fields fields;                  ///< at the end
     std::vector<Fields> snapshots;  ///< on the way, and at the end; if asked for

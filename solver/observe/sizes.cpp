@@ -1,5 +1,7 @@
 #include "solver/observe/sizes.hpp"
 
+#include "solver/observe/outline.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,31 +13,6 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double foot_zone = 2e-3;           // height read as the foot [m]
 constexpr double undeformed_change = 0.005;  // of the radius
 constexpr double low_section = 0.2;  // height of the low diameter / initial length
-
-/// Radius where the piece of outline from point i to i + 1 crosses `height`.
-double radius_on_piece(const DeformedProfile& profile, std::size_t i, double height) {
-    const double lower = profile.outline_height[i];
-    const double rise = profile.outline_height[i + 1] - lower;
-    if (rise == 0)
-        return std::max(profile.outline_radius[i], profile.outline_radius[i + 1]);
-    return std::lerp(profile.outline_radius[i], profile.outline_radius[i + 1],
-                     (height - lower) / rise);
-}
-
-/// The silhouette's radius at a height, of the first `points` of the outline: the largest
-/// where a folded outline crosses it several times, as a calliper reads it. NaN where the
-/// specimen does not reach.
-double silhouette_radius(const DeformedProfile& profile, double height,
-                         std::size_t points) {
-    double largest = nan;
-    for (std::size_t i = 0; i + 1 < points; ++i) {
-        const auto [low, high] =
-            std::minmax(profile.outline_height[i], profile.outline_height[i + 1]);
-        if (height >= low && height <= high)
-            largest = std::fmax(largest, radius_on_piece(profile, i, height));
-    }
-    return largest;
-}
 
 /// The head's largest radius between the anvil and the top of the foot zone, where the
 /// piece that leaves the zone is cut. The rear is not read: its shoulder sinks into the

@@ -1,6 +1,7 @@
 #include "solver/sph/run.hpp"
 
 #include "solver/impact/simulate.hpp"
+#include "solver/observe/outline.hpp"
 #include "solver/sph/monitor.hpp"
 
 #include <cmath>
@@ -77,6 +78,7 @@ class Run {
             profiles_.add(monitor_.outline().measure(body_.particles()));
         result.profile = profiles_.mean();
         result.sizes = observe::measure(result.profile);
+        result.outline_radius = observe::sample_outline(result.profile);
         result.descriptors = monitor_.descriptors(stop_time_);
         result.history = monitor_.history();
         result.fields = monitor_.fields();

@@ -1,11 +1,10 @@
 """Fixtures that every workflow test shares."""
 
 import os
-import shutil
 from pathlib import Path
 
 import pytest
-from tiny_study import ROOT, STUDY, Workspace, make_workspace, write_study
+from tiny_study import ROOT, STUDY, copy_workspace, make_workspace, write_study
 
 from study import read_study
 
@@ -56,6 +55,4 @@ def finished(program, build, tmp_path_factory):
 @pytest.fixture
 def copied(finished, tmp_path):
     """A copy of the finished study that a test may change."""
-    folder = tmp_path / "copy"
-    shutil.copytree(finished.folder, folder, symlinks=True)
-    return Workspace(folder)
+    return copy_workspace(finished, tmp_path / "copy")

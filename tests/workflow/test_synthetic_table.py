@@ -1,18 +1,21 @@
 """The synthetic table is the truth plus the stated noise, and a study can use it."""
 
 import numpy as np
+import pytest
 from tiny_study import ROOT
 
-from make_synthetic_table import HELD_BACK, NOISE, SHAPES, SHOTS, TRUTH, VELOCITY_NOISE
-from make_synthetic_table import shots, table_rows, write_table
+from input_errors import InputError
+from make_synthetic_table import HELD_BACK, NOISE, SHAPES, TRUTH, VELOCITY_NOISE
+from make_synthetic_table import TableDesign, table_rows, truth_of, write_table
 from measurements import check_against_study, read_measurements
 from study import read_study
 
+SHOTS = 50
 SIZES = np.tile([36.0, 10.0, 8.0, 28.0, 8.5], (SHOTS, 1))
 
 
 def test_the_design_is_the_papers():
-    made = shots(seed=3)
+    made = TableDesign(seed=3).columns()
     assert len(made["shape"]) == SHOTS and set(made["shape"]) == set(SHAPES)
     assert made["inputs"][:, 0].min() == 19 and made["inputs"][:, 0].max() == 125
     for name, value in TRUTH.items():
@@ -20,7 +23,7 @@ def test_the_design_is_the_papers():
 
 
 def test_the_noise_has_the_stated_size():
-    made = shots(seed=3)
+    made = TableDesign(seed=3).columns()
     deviations = {size: [] for size in NOISE}
     velocity = []
     for seed in range(20):
@@ -37,10 +40,24 @@ def test_the_noise_has_the_stated_size():
 
 
 def test_the_table_is_valid_and_labelled(tmp_path):
-    rows = table_rows(shots(seed=3), SIZES, "synthetic: made by taylorcal's solver", 3)
+    rows = table_rows(
+        TableDesign(seed=3).columns(), SIZES, "synthetic: made by taylorcal's solver", 3
+    )
     write_table(tmp_path / "measurements.csv", rows)
     read = read_measurements(tmp_path / "measurements.csv")
     assert all(row["source"].startswith("synthetic") for row in read)
     assert sum(row["use"] == "validate" for row in read) == SHOTS // HELD_BACK
     study = read_study(ROOT / "experiments" / "paper_design" / "study.yaml")
     check_against_study(read, study, tmp_path / "measurements.csv")
+
+
+def test_a_hidden_effect_is_an_input_of_the_solver_and_nothing_else():
+    truth = truth_of(["anvil_friction=0.08", "hardening_coefficient=3"])
+    assert truth == {**TRUTH, "hardening_coefficient": 3, "anvil_friction": 0.08}
+    made = TableDesign(seed=3, shots=8, shapes=SHAPES[:2], truth=truth).columns()
+    assert made["names"][-1] == "anvil_friction" and (made["inputs"][:, -1] == 0.08).all()
+    assert made["shape"] == [name for name in SHAPES[:2] for _ in range(4)]
+    for row in table_rows(made, SIZES[:8], "synthetic", 3):
+        assert not any("friction" in text for text in row.values())
+    with pytest.raises(InputError, match="expected name=value"):
+        truth_of(["anvil_friction"])

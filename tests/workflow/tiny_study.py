@@ -1,5 +1,6 @@
 """A study so small that its whole chain runs in seconds, and a folder to run it in."""
 
+import shutil
 import subprocess
 from pathlib import Path
 
@@ -91,6 +92,12 @@ class Workspace:
             for line in lines
             if line.startswith(("rule ", "localrule "))
         }
+
+
+def copy_workspace(workspace: Workspace, folder: Path) -> Workspace:
+    """A copy that a test may change."""
+    shutil.copytree(workspace.folder, folder, symlinks=True)
+    return Workspace(folder)
 
 
 def make_workspace(folder: Path, build: Path) -> Workspace:

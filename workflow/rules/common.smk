@@ -8,29 +8,50 @@ from snakemake.utils import min_version
 
 sys.path.insert(0, str(Path(workflow.basedir) / "workflow" / "scripts"))
 
+from effects import check_effects, solver_list
 from input_errors import InputError
 from measurements import check_against_study, read_measurements
-from study import EXPERIMENTS, STAGE_SETTINGS, design_settings, load_study
+from outlines.table import check_outlines
+from revisions import HOME, homes_of, previous_home, split_home
+from study import EXPERIMENTS, STAGE_SETTINGS, at_revision, chunk_count, design_settings
+from study import load_study, new_runs, uses_outlines
 
 min_version("7.21")
 
 
+# {study} is a home, so that every rule serves the base and each revision; {name} is the
+# study alone.
 wildcard_constraints:
-    study="[A-Za-z0-9_]+",
+    study=HOME,
+    name="[A-Za-z0-9_]+",
     chunk="[0-9]+",
     stage="|".join(STAGE_SETTINGS),
 
 
 @cache
-def study_of(name):
-    """The study and its table, both checked, whichever stage asks first."""
+def study_of(home):
+    """The study at a revision, and its table, checked whichever stage asks first."""
+    name, inside = split_home(home)
     try:
         study = load_study(name)
         table = EXPERIMENTS / name / study["measurements"]
-        check_against_study(read_measurements(table), study, table)
+        rows = read_measurements(table)
+        check_against_study(rows, study, table)
+        if uses_outlines(study):
+            check_outlines(rows, study, table)
+        # A base that nothing was added to does not ask the solver.
+        if inside or study["effects"] or study["diagnosis"]["candidates"] != "all":
+            known = solver_list("effects")
+            asked = {**study, "effects": [*study["effects"], *inside]}
+            check_effects(asked, EXPERIMENTS / name / "study.yaml", known)
+            study = at_revision(study, [known[effect] for effect in inside])
     except InputError as error:
         raise WorkflowError(str(error))
     return study
+
+
+def homes_of_study(name):
+    return homes_of(name, study_of(name)["effects"])
 
 
 def stage_settings(wildcards):
@@ -43,20 +64,78 @@ def design_settings_of(wildcards):
 
 def measurements_of(wildcards):
     study = study_of(wildcards.study)
-    return str(EXPERIMENTS / wildcards.study / study["measurements"])
+    return str(EXPERIMENTS / split_home(wildcards.study)[0] / study["measurements"])
+
+
+def previous(file):
+    """The file of the revision before as an input; none for the base."""
+
+    def find(wildcards):
+        home = previous_home(wildcards.study)
+        return f"results/{home}/{file}" if home else []
+
+    return find
+
+
+def zero_inputs_of(wildcards):
+    return " ".join(f"--zero-input {effect}" for effect in split_home(wildcards.study)[1][-1:])
+
+
+def fitted_table_of(wildcards):
+    """The table that is fitted: with the outlines' scores if the study compares them."""
+    if uses_outlines(study_of(wildcards.study)):
+        return f"results/{wildcards.study}/outlines/measurements.csv"
+    return measurements_of(wildcards)
+
+
+def with_scores(name):
+    """A database of the study: with the outlines' scores if the study compares them."""
+
+    def find(wildcards):
+        folder = "outlines/" if uses_outlines(study_of(wildcards.study)) else ""
+        return f"results/{wildcards.study}/{folder}{name}.h5"
+
+    return find
+
+
+def base_outlines_of(wildcards):
+    """All revisions use the base's components: their networks go on from each other."""
+    return f"results/{split_home(wildcards.study)[0]}/outlines/basis.json"
+
+
+def outlines_of(wildcards):
+    """The files of the measured outlines that are compared."""
+    table = Path(measurements_of(wildcards))
+    rows = [row for row in read_measurements(table) if row["use"] != "ignore"]
+    return [str(table.parent / row["outline"]) for row in rows if row["outline"]]
+
+
+def outline_errors_of(wildcards):
+    return study_of(wildcards.study)["outlines"]
+
+
+def outline_results_of(wildcards):
+    """What the report shows of the outlines, if the study compares them."""
+    if not uses_outlines(study_of(wildcards.study)):
+        return {}
+    scores = f"results/{wildcards.study}/outlines/scores.json"
+    return {"outline_basis": base_outlines_of(wildcards), "outline_scores": scores}
 
 
 def rows_of_chunk(wildcards):
     """First row and the row after the last one, as `solver batch --rows` wants them."""
-    database = study_of(wildcards.study)["database"]
-    runs, chunks, chunk = database["runs"], database["chunks"], int(wildcards.chunk)
+    study = study_of(wildcards.study)
+    return share_of_chunk(new_runs(study), chunk_count(study), wildcards)
+
+
+def share_of_chunk(runs, chunks, wildcards):
+    chunk = int(wildcards.chunk)
     return f"{chunk * runs // chunks}:{(chunk + 1) * runs // chunks}"
 
 
 def chunks_of(wildcards):
-    chunks = study_of(wildcards.study)["database"]["chunks"]
-    return expand("results/{study}/chunks/{chunk}.h5", chunk=range(chunks), study=wildcards.study)
-
+    chunks = range(chunk_count(study_of(wildcards.study)))
+    return expand("results/{study}/chunks/{chunk}.h5", chunk=chunks, study=wildcards.study)
 
 
 def benchmarks_of(wildcards):

@@ -3,7 +3,7 @@ rule compare:
         program="build/bin/calibrate",
         posterior="results/{study}/posterior.h5",
         emulator="results/{study}/emulator.json",
-        measurements=measurements_of,
+        measurements=fitted_table_of,
         settings="results/{study}/config/calibrate.json",
     output:
         "results/{study}/comparison.json",

@@ -1,7 +1,8 @@
 rule train:
     input:
         program="build/bin/emulator",
-        database="results/{study}/database.h5",
+        database=with_scores("database"),
+        previous=previous("emulator.json"),
         settings="results/{study}/config/train.json",
     output:
         "results/{study}/emulator.json",
@@ -9,7 +10,9 @@ rule train:
         "results/{study}/logs/train.log",
     benchmark:
         "results/{study}/benchmarks/train.tsv"
+    params:
+        start=lambda wildcards, input: f"--from {input.previous}" if input.previous else "",
     threads: workflow.cores
     shell:
-        "{input.program} train {input.database} --config {input.settings} --out {output}"
-        " --threads {threads} > {log} 2>&1"
+        "{input.program} train {input.database} --config {input.settings} {params.start}"
+        " --out {output} --threads {threads} > {log} 2>&1"

@@ -1,5 +1,6 @@
 rule report:
     input:
+        unpack(outline_results_of),
         comparison="results/{study}/comparison.json",
         posterior="results/{study}/posterior.h5",
         emulator="results/{study}/emulator.json",
@@ -7,6 +8,8 @@ rule report:
         measurements=measurements_of,
         settings="results/{study}/config/report.json",
         page="workflow/report/page.html.j2",
+        base="workflow/report/base.html.j2",
+        figure="workflow/report/figure.html.j2",
         style="workflow/report/style.css",
     output:
         page="results/{study}/report.html",

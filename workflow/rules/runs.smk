@@ -23,6 +23,7 @@ rule runs:
 rule merge:
     input:
         program="build/bin/solver",
+        previous=previous("database.h5"),
         chunks=chunks_of,
     output:
         "results/{study}/database.h5",
@@ -30,5 +31,9 @@ rule merge:
         "results/{study}/logs/merge.log",
     benchmark:
         "results/{study}/benchmarks/merge.tsv"
+    params:
+        # The runs of the revision before have no column of the effect: its amplitude is 0.
+        effects=zero_inputs_of,
     shell:
-        "{input.program} merge {input.chunks} --out {output} > {log} 2>&1"
+        "{input.program} merge {input.previous} {input.chunks} {params.effects} --out {output}"
+        " > {log} 2>&1"

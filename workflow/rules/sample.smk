@@ -2,7 +2,7 @@ rule sample:
     input:
         program="build/bin/calibrate",
         emulator="results/{study}/emulator.json",
-        measurements=measurements_of,
+        measurements=fitted_table_of,
         settings="results/{study}/config/calibrate.json",
     output:
         "results/{study}/posterior.h5",

@@ -20,9 +20,16 @@ def design(settings: dict) -> dict:
         (name, values["lower"], values["upper"], values["prior"] == "log_uniform")
         for name, values in settings["parameters"].items()
     ]
+    axes += [
+        (name, values["lower"], values["upper"], False)
+        for name, values in settings.get("effects", {}).items()
+    ]
+    first_run = settings.get("first_run", 0)
+    # The runs of a revision continue the numbers of those before and repeat none.
+    seed = [settings["seed"], first_run] if first_run else [settings["seed"]]
     shapes, runs = settings["shapes"], settings["runs"]
     varying = [index for index, (_, lower, upper, _) in enumerate(axes) if lower < upper]
-    points = _interleaved_sobol(len(varying), runs, len(shapes), settings["seed"])
+    points = _interleaved_sobol(len(varying), runs, len(shapes), seed)
     inputs = np.empty((runs, len(axes)))
     for index, (_, lower, upper, logarithmic) in enumerate(axes):
         share = points[:, varying.index(index)] if index in varying else np.zeros(runs)
@@ -31,9 +38,9 @@ def design(settings: dict) -> dict:
         else:
             values = lower + (upper - lower) * share
         inputs[:, index] = np.clip(values, lower, upper)  # rounding must not leave the range
-    seeds = np.random.default_rng(settings["seed"]).integers(1, 2**31, size=runs)
+    seeds = np.random.default_rng(seed).integers(1, 2**31, size=runs)
     return {
-        "run_id": np.arange(runs, dtype=np.int64),
+        "run_id": np.arange(first_run, first_run + runs, dtype=np.int64),
         "seed": seeds.astype(np.int64),
         "shape": [shapes[run % len(shapes)] for run in range(runs)],
         "inputs": inputs,
@@ -41,7 +48,7 @@ def design(settings: dict) -> dict:
     }
 
 
-def _interleaved_sobol(dimensions: int, runs: int, shapes: int, seed: int) -> np.ndarray:
+def _interleaved_sobol(dimensions: int, runs: int, shapes: int, seed: list[int]) -> np.ndarray:
     """Points of the unit cube; each shape has a sequence of its own, row n belongs to shape
     n mod `shapes`. The cube is a little smaller than the sequence's, and points beyond it are
     moved to its faces: a network that has seen the ends of a range need not extrapolate.
@@ -50,7 +57,7 @@ def _interleaved_sobol(dimensions: int, runs: int, shapes: int, seed: int) -> np
     for shape in range(shapes):
         rows = len(range(shape, runs, shapes))
         powers = max(rows - 1, 1).bit_length()
-        engine = qmc.Sobol(dimensions, seed=np.random.default_rng([seed, shape]))
+        engine = qmc.Sobol(dimensions, seed=np.random.default_rng([*seed, shape]))
         stretch = 1 + 2 * EDGE_RUNS / rows
         points[shape::shapes] = 0.5 + stretch * (engine.random_base2(powers)[:rows] - 0.5)
     return np.clip(points, 0, 1)

@@ -4,7 +4,11 @@
     --out experiments/paper_design/measurements.csv
 
 The fidelity and the seeds should differ from those of the study's database: a table made
-with the very runs that the network learns from would flatter the calibration.
+with the very runs that the network learns from would flatter the calibration. `--set` changes
+the truth, and may name an effect that the study's model lacks:
+
+/usr/bin/python3 workflow/scripts/make_synthetic_table.py --fidelity standard --seed 11 \\
+    --set anvil_friction=0.08 --shots 36 --out experiments/hidden_effect_tutorial/measurements.csv
 """
 
 import argparse
@@ -13,6 +17,7 @@ import json
 import subprocess
 import sys
 import tempfile
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import h5py
@@ -20,6 +25,7 @@ import numpy as np
 
 from input_errors import InputError
 from make_design import write_design
+from study import DESIGN_RANGES
 
 # Optimum (ii) of doi 10.3390/ma16165602, and its specimens, velocities and number of rows.
 TRUTH = {
@@ -28,8 +34,6 @@ TRUTH = {
     "immobilization_velocity": 0.4,
 }
 SHAPES = ["uniform_cylinder", "reduced_head_4mm", "reduced_head_3mm", "truncated_cone"]
-SHOTS = 50
-VELOCITIES_M_S = (19.0, 125.0)
 DIAMETER_MM, LENGTH_MM, TEMPERATURE_K = 8.0, 40.0, 300.0
 # Relative standard errors of a careful measurement.
 NOISE = {
@@ -43,24 +47,37 @@ VELOCITY_NOISE = 0.005
 HELD_BACK = 6  # one shot in so many
 
 
-def shots(seed: int) -> dict:
-    """A design: each shape has velocities evenly from the lowest to the highest."""
-    rows = [(shape, v) for shape in SHAPES for v in _velocities(SHAPES.index(shape))]
-    shot = [DIAMETER_MM, LENGTH_MM / DIAMETER_MM, TEMPERATURE_K, *TRUTH.values()]
-    names = ["velocity_m_s", "initial_diameter_mm", "length_to_diameter", "initial_temperature_K"]
-    seeds = np.random.default_rng(seed).integers(1, 2**31, size=len(rows))
-    return {
-        "run_id": np.arange(len(rows), dtype=np.int64),
-        "seed": seeds.astype(np.int64),
-        "shape": [shape for shape, _ in rows],
-        "inputs": np.array([[velocity, *shot] for _, velocity in rows]),
-        "names": [*names, *TRUTH],
-    }
+@dataclass
+class TableDesign:
+    """What is shot, and in what metal: parameters of the material and effects by name, SI units."""
 
+    seed: int
+    shapes: list[str] = field(default_factory=lambda: list(SHAPES))
+    shots: int = 50
+    velocities_m_s: tuple[float, float] = (19.0, 125.0)
+    truth: dict[str, float] = field(default_factory=lambda: dict(TRUTH))
 
-def _velocities(shape: int) -> np.ndarray:
-    count = len(range(shape, SHOTS, len(SHAPES)))
-    return np.round(np.linspace(*VELOCITIES_M_S, count), 1)
+    def velocities_of(self, shape: int) -> np.ndarray:
+        """Evenly from the lowest to the highest for each shape [m/s]."""
+        count = len(range(shape, self.shots, len(self.shapes)))
+        return np.round(np.linspace(*self.velocities_m_s, count), 1)
+
+    def columns(self) -> dict:
+        """The runs as `write_design` wants them."""
+        rows = [
+            (name, velocity)
+            for index, name in enumerate(self.shapes)
+            for velocity in self.velocities_of(index)
+        ]
+        shot = [DIAMETER_MM, LENGTH_MM / DIAMETER_MM, TEMPERATURE_K, *self.truth.values()]
+        seeds = np.random.default_rng(self.seed).integers(1, 2**31, size=len(rows))
+        return {
+            "run_id": np.arange(len(rows), dtype=np.int64),
+            "seed": seeds.astype(np.int64),
+            "shape": [shape for shape, _ in rows],
+            "inputs": np.array([[velocity, *shot] for _, velocity in rows]),
+            "names": [*DESIGN_RANGES, *self.truth],
+        }
 
 
 def run_solver(solver: Path, design: dict, settings: dict, threads: int) -> np.ndarray:
@@ -114,23 +131,47 @@ def write_table(path: Path, rows: list[dict]) -> None:
         writer.writerows(rows)
 
 
+def truth_of(settings: list[str]) -> dict[str, float]:
+    """TRUTH with the `name=value` of the command line; the solver checks names and ranges."""
+    truth = dict(TRUTH)
+    for text in settings:
+        name, _, value = text.partition("=")
+        try:
+            truth[name] = float(value)
+        except ValueError:
+            raise InputError(f"--set {text} (expected name=value, as in anvil_friction=0.08).")
+    return truth
+
+
+def source_of(options: argparse.Namespace) -> str:
+    """What each row says of its origin; a hidden effect stays hidden."""
+    return (
+        f"synthetic: made by taylorcal's solver ({options.geometry}, {options.fidelity}), "
+        + ("" if options.set else "optimum (ii) of doi 10.3390/ma16165602, ")
+        + f"noise added, seed {options.seed}"
+    )
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--solver", type=Path, default=Path("build/bin/solver"))
     parser.add_argument("--geometry", choices=["axisymmetric", "3d"], default="axisymmetric")
     parser.add_argument("--fidelity", choices=["coarse", "standard", "fine"], required=True)
     parser.add_argument("--seed", type=int, required=True, help="of grains and noise")
+    parser.add_argument("--set", action="append", default=[], metavar="NAME=VALUE")
+    parser.add_argument("--shapes", nargs="+", choices=SHAPES, default=SHAPES)
+    parser.add_argument("--shots", type=int, default=50)
+    parser.add_argument("--velocities", nargs=2, type=float, default=(19.0, 125.0), help="m/s")
     parser.add_argument("--threads", type=int, default=2)
     parser.add_argument("--out", type=Path, required=True, help="table to write (CSV)")
     options = parser.parse_args()
     settings = {"geometry": options.geometry, "fidelity": options.fidelity}
-    design = shots(options.seed)
+    truth = truth_of(options.set)
+    velocities = tuple(options.velocities)
+    table = TableDesign(options.seed, options.shapes, options.shots, velocities, truth)
+    design = table.columns()
     sizes = run_solver(options.solver.absolute(), design, settings, options.threads)
-    source = (
-        f"synthetic: made by taylorcal's solver ({options.geometry}, {options.fidelity}), "
-        f"optimum (ii) of doi 10.3390/ma16165602, noise added, seed {options.seed}"
-    )
-    write_table(options.out, table_rows(design, sizes, source, options.seed))
+    write_table(options.out, table_rows(design, sizes, source_of(options), options.seed))
 
 
 if __name__ == "__main__":

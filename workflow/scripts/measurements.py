@@ -6,7 +6,7 @@ from pathlib import Path
 
 from input_errors import InputError
 from schema_check import fill_defaults, findings, load_schema
-from study import DESIGN_RANGES
+from study import DESIGN_RANGES, OUTLINE_SCORES
 
 FAR_OFF = 5  # standard errors from which a size is a slip of the pen
 
@@ -14,7 +14,7 @@ FAR_OFF = 5  # standard errors from which a size is a slip of the pen
 def read_measurements(path: Path) -> list[dict]:
     """The rows with numbers as floats, empty cells left out and `line` added."""
     schema = load_schema("measurements")
-    header, records = _read_cells(path)
+    header, records = read_cells(path, "one row a shot")
     problems = [
         f"{path}, line 1: column {key[0]} {text}"
         for key, text in findings({name: None for name in header}, _header_schema(schema))
@@ -61,13 +61,17 @@ def check_against_study(rows: list[dict], study: dict, path: Path) -> None:
     if not fitted:
         problems.append(f"{path}: no row has `use` = calibrate (expected at least one).")
     for size in study["calibration"]["fit_sizes"]:
-        if fitted and not any(size in row for row in fitted):
-            problems.append(f"{path}: no fitted row has {size!r}. Drop it from fit_sizes.")
+        measured_as = "outline" if size in OUTLINE_SCORES else size
+        if fitted and not any(row.get(measured_as, "") != "" for row in fitted):
+            problems.append(
+                f"{path}: no fitted row has {measured_as!r}. Drop {size} from fit_sizes."
+            )
     if problems:
         raise InputError("\n".join(problems))
 
 
-def _read_cells(path: Path) -> tuple[list[str], list[tuple[int, list[str]]]]:
+def read_cells(path: Path, rows: str) -> tuple[list[str], list[tuple[int, list[str]]]]:
+    """The header and (line, cells) of each row; `rows` says in messages what a row is."""
     try:
         with path.open(newline="", encoding="utf-8-sig") as file:
             reader = csv.reader(file, strict=True)
@@ -77,7 +81,7 @@ def _read_cells(path: Path) -> tuple[list[str], list[tuple[int, list[str]]]]:
     except (csv.Error, UnicodeDecodeError) as error:
         raise InputError(f"{path}: is not a comma-separated table: {error}.") from error
     if not table:
-        raise InputError(f"{path}: the table is empty (expected a header and one row a shot).")
+        raise InputError(f"{path}: the table is empty (expected a header and {rows}).")
     header = [name.strip() for name in table[0][1]]
     for name in header:
         if header.count(name) > 1:

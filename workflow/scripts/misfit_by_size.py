@@ -4,9 +4,11 @@ In per cent of the size before impact: one that may vanish, such as the undeform
 would make deviations relative to itself meaningless.
 """
 
+from study import is_radial
+
 
 def size_before_impact(size: str, specimen: dict) -> float:
-    return specimen["initial_diameter_mm" if "diameter" in size else "initial_length_mm"]
+    return specimen["initial_diameter_mm" if is_radial(size) else "initial_length_mm"]
 
 
 def misfit_by_size(comparison: dict, use: str) -> dict[str, float]:

@@ -66,6 +66,9 @@ def _worded(error) -> list[tuple[tuple, str]]:
         return [(path, f"= {given!r} is not a known word. {did_you_mean(given, known)}")]
     if rule == "type":
         return [(path, f"= {given!r} (expected {_type_name(error)}).{_text_hint(given)}")]
+    if rule == "uniqueItems":
+        twice = next(item for item in given if given.count(item) > 1)
+        return [(path, f"holds {twice!r} twice. Keep one.")]
     bounds = {
         "minimum": "at least",
         "exclusiveMinimum": "above",

@@ -15,6 +15,8 @@ DESIGN_RANGES = ["velocity_m_s", "initial_diameter_mm", "length_to_diameter"]
 DESIGN_RANGES += ["initial_temperature_K"]
 LENGTH = ["initial_diameter_mm", "length_to_diameter"]
 DIAMETER = ["initial_diameter_mm"]
+FIDELITIES = ["coarse", "standard", "fine"]
+OUTLINE_SCORES = [f"outline_pc_{k}" for k in range(1, 5)]  # of principal components, in mm
 
 
 def load_study(name: str, experiments: Path = EXPERIMENTS) -> dict:
@@ -34,7 +36,16 @@ def read_study(path: Path) -> dict:
     found = found or _contradictions(study)
     if found:
         raise InputError("\n".join(sorted(_placed(path, lines, *item) for item in found)))
-    return study
+    study["database"].setdefault("runs_per_effect", max(4, study["database"]["runs"] // 4))
+    study["emulator"].setdefault("epochs_of_revision", -(-study["emulator"]["epochs"] // 3))
+    return at_revision(study, [])
+
+
+def at_revision(study: dict, effects: list[dict]) -> dict:
+    """The study as one of its revisions sees it: `revision` holds what `solver effects`
+    says of each effect that is in; none is in the base.
+    """
+    return {**study, "revision": effects}
 
 
 def _placed(path: Path, lines: dict, key: tuple, problem: str) -> str:
@@ -72,6 +83,16 @@ def _contradictions(study: dict) -> list[tuple[tuple, str]]:
     return found
 
 
+def is_radial(size: str) -> bool:
+    """Whether a size scales with the diameter, and not with the length."""
+    return "diameter" in size or size in OUTLINE_SCORES
+
+
+def uses_outlines(study: dict) -> bool:
+    """Whether measured outlines are compared, as scores of principal components."""
+    return any(size in OUTLINE_SCORES for size in study["emulator"]["outputs"])
+
+
 def design_settings(study: dict) -> dict:
     """What the design of the database depends on."""
     database = study["database"]
@@ -79,14 +100,41 @@ def design_settings(study: dict) -> dict:
         name: {key: parameter[key] for key in ("lower", "upper", "prior")}
         for name, parameter in study["parameters"].items()
     }
-    ranges = {key: database[key] for key in DESIGN_RANGES}
-    kept = {key: database[key] for key in ("runs", "seed", "shapes")}
-    return {**kept, "ranges": ranges, "parameters": parameters}
+    settings = {key: database[key] for key in ("seed", "shapes")}
+    settings |= {"runs": new_runs(study), "parameters": parameters}
+    settings["ranges"] = {key: database[key] for key in DESIGN_RANGES}
+    if study["revision"]:
+        earlier = len(study["revision"]) - 1
+        settings["first_run"] = database["runs"] + earlier * database["runs_per_effect"]
+        settings["effects"] = {
+            effect["name"]: {"lower": effect["lowest"], "upper": effect["highest"]}
+            for effect in study["revision"]
+        }
+    return settings
+
+
+def new_runs(study: dict) -> int:
+    """Runs that the database of this revision has beyond those of the one before."""
+    return study["database"]["runs_per_effect" if study["revision"] else "runs"]
+
+
+def chunk_count(study: dict) -> int:
+    return min(study["database"]["chunks"], new_runs(study))
 
 
 def solver_settings(study: dict) -> dict:
     """solver.json"""
     return study["solver"]
+
+
+def finer_settings(study: dict) -> dict:
+    """solver_finer.json: the same at the next fidelity, to see the solver's own error."""
+    finer = FIDELITIES[FIDELITIES.index(study["solver"]["fidelity"]) + 1]
+    return {**study["solver"], "fidelity": finer}
+
+
+def has_finer(study: dict) -> bool:
+    return study["solver"]["fidelity"] != FIDELITIES[-1]
 
 
 def train_settings(study: dict) -> dict:
@@ -95,9 +143,13 @@ def train_settings(study: dict) -> dict:
     for name, parameter in study["parameters"].items():
         log = {"transform": "log10"} if parameter["prior"] == "log_uniform" else {}
         inputs.append({"name": name, **log})
+    inputs += [{"name": effect["name"]} for effect in study["revision"]]
     settings = dict(study["emulator"])
+    epochs_of_revision = settings.pop("epochs_of_revision")
+    if study["revision"]:
+        settings["epochs"] = epochs_of_revision
     outputs = [
-        {"name": size, "divide_by": DIAMETER if "diameter" in size else LENGTH}
+        {"name": size, "divide_by": DIAMETER if is_radial(size) else LENGTH}
         for size in settings.pop("outputs")
     ]
     category = "shape" if len(study["database"]["shapes"]) > 1 else None
@@ -107,23 +159,38 @@ def train_settings(study: dict) -> dict:
 def calibrate_settings(study: dict) -> dict:
     """calibrate.json"""
     parameters = [{"name": name, **values} for name, values in study["parameters"].items()]
+    parameters += [_amplitude(effect) for effect in study["revision"]]
     return {"parameters": parameters, **study["calibration"]}
+
+
+def _amplitude(effect: dict) -> dict:
+    """An effect's amplitude as a parameter: its prior is part of the effect's entry."""
+    prior = effect["prior"]
+    scale = {"scale": prior["scale"]} if prior["kind"] in ("half_normal", "normal") else {}
+    limits = {"lower": effect["lowest"], "upper": effect["highest"]}
+    return {"name": effect["name"], **limits, "prior": prior["kind"], **scale, "scope": "shared"}
 
 
 def report_settings(study: dict) -> dict:
     """report.json: what only the page needs."""
-    keys = ("title", "material", "about", "synthetic", "synthetic_note")
+    keys = ("title", "material", "about", "synthetic", "synthetic_note", "outlines")
     settings = {key: study[key] for key in keys}
     parameters = load_schema("study")["properties"]["parameters"]["properties"]
     settings["parameters"] = {
         name: {**values, "words": parameters[name]["description"], "unit": parameters[name]["unit"]}
         for name, values in study["parameters"].items()
     }
+    if study["revision"]:
+        settings["effects"] = [effect["name"] for effect in study["revision"]]
+    for effect in study["revision"]:
+        words = {"words": effect["description"], "unit": effect["unit"]}
+        settings["parameters"][effect["name"]] = {**_amplitude(effect), **words}
     return settings
 
 
 STAGE_SETTINGS = {
     "solver": solver_settings,
+    "solver_finer": finer_settings,
     "train": train_settings,
     "calibrate": calibrate_settings,
     "report": report_settings,

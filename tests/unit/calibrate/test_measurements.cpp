@@ -126,3 +126,22 @@ TEST_CASE("bad tables are refused with place and remedy", "[measurements]") {
         CHECK_THAT(complaint(header + replaced(row, ",paper", ",")), Contains("source"));
     }
 }
+
+TEST_CASE("a score of the outline may have either sign, its error must not",
+          "[measurements]") {
+    const std::string columns = replaced(header, "final_length_mm,final_length_mm_sd",
+                                         "outline_pc_1,outline_pc_1_sd");
+    const std::string negative = replaced(row, "30,0.2", "-0.12,0.02");
+    const auto shots = read(columns + negative);
+    REQUIRE(shots.at(0).sizes.size() == 1);
+    CHECK(shots[0].sizes[0].value_mm == -0.12);
+    // Relative to the initial diameter: a score may be zero.
+    CHECK(make_data_set(shots, {"outline_pc_1"}).data.at(0).scale_mm(0) == 8);
+
+    const std::string no_error = complaint(columns + replaced(negative, "0.02", ""));
+    CHECK_THAT(no_error, Contains("outline_pc_1_sd") && Contains("is empty"));
+    CHECK_THAT(complaint(columns + replaced(negative, "0.02", "-0.02")),
+               Contains("outline_pc_1_sd") && Contains("is not a positive"));
+    CHECK_THAT(complaint(columns + replaced(negative, "-0.12", "inf")),
+               Contains("outline_pc_1"));
+}

@@ -46,6 +46,26 @@ TEST_CASE("settings are read with their defaults", "[settings]") {
     CHECK_FALSE(parse_settings(none, "calibrate.json").unexplained_spread.has_value());
 }
 
+TEST_CASE("a normal prior around zero is read with its scale", "[settings]") {
+    json settings = good();
+    settings["parameters"][0] = {{"name", "anvil_friction"},
+                                 {"lower", 0},
+                                 {"upper", 0.5},
+                                 {"prior", "half_normal"},
+                                 {"scale", 0.1}};
+    CHECK(parse_settings(settings, "calibrate.json").parameters[0].normal_scale == 0.1);
+    CHECK_FALSE(parse_settings(good(), "calibrate.json").parameters[0].normal_scale);
+    settings["parameters"][0]["scale"] = 0;
+    CHECK_THAT(complaint(settings), Contains("scale") && Contains("positive"));
+    settings["parameters"][0]["scale"] = 0.01;
+    settings["parameters"][0]["lower"] = 0.2;
+    CHECK_THAT(complaint(settings), Contains("scale") && Contains("0.2 to 0.5"));
+    settings["parameters"][0]["lower"] = -0.2;
+    CHECK_THAT(complaint(settings), Contains("lower") && Contains("use normal"));
+    settings["parameters"][0]["prior"] = "uniform";
+    CHECK_THAT(complaint(settings), Contains("scale") && Contains("not a known key"));
+}
+
 TEST_CASE("bad settings are refused with the key's name", "[settings]") {
     json bad = good();
     SECTION("unknown key") {

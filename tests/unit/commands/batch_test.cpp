@@ -1,6 +1,7 @@
 #include "solver/commands/batch.hpp"
 
 #include "common/errors.hpp"
+#include "common/hdf5_file.hpp"
 #include "solver/commands/journal.hpp"
 #include "solver/commands/merge.hpp"
 #include "tests/unit/commands/small_batch.hpp"
@@ -97,6 +98,8 @@ TEST_CASE("a run that fails becomes a row with its reason", "[batch]") {
             CHECK(run.status == impact::Status::failed);
             CHECK(run.reason == "tangled cells");
             for (const double value : run.outputs) CHECK(std::isnan(value));
+            REQUIRE(run.outline_radius.size() == observe::outline_points);
+            for (const double radius : run.outline_radius) CHECK(std::isnan(radius));
         } else if (seed == 105) {
             CHECK(run.status == impact::Status::not_stopped);
             CHECK(run.reason == "time limit");
@@ -106,8 +109,46 @@ TEST_CASE("a run that fails becomes a row with its reason", "[batch]") {
             CHECK(run.outputs[0] ==
                   database.design.inputs(static_cast<Eigen::Index>(i), 0) / 3);
             CHECK(std::isnan(run.outputs[4]));
+            REQUIRE(run.outline_radius.size() == observe::outline_points);
+            CHECK(run.outline_radius[2] == 1 + 2 * run.outputs[0]);
         }
     }
+}
+
+TEST_CASE("rows of before an effect was added join with its amplitude 0", "[merge]") {
+    const SmallBatch batch;
+    batch.run("old.h5", 1);
+    Design design = batch.design;
+    design.input_names.emplace_back("drag_slope");
+    design.inputs.conservativeResize(Eigen::NoChange, design.inputs.cols() + 1);
+    design.inputs.rightCols(1).setConstant(1e-8);
+    for (std::int64_t& id : design.run_id) id += 100;
+    run_batch(design, make_cases(design, batch.configuration, "new.h5"),
+              batch.configuration.document, batch.folder / "new.h5", 1,
+              testing::quick_answer);
+    const std::vector<std::string> files = {(batch.folder / "old.h5").string(),
+                                            (batch.folder / "new.h5").string()};
+    CHECK_THROWS_WITH(merge(files), Contains("new.h5: has other inputs"));
+    const Database old = read_database(files[0]);
+    const Database all = merge(files, {"drag_slope"});
+    const auto rows = static_cast<Eigen::Index>(old.design.rows());
+    CHECK(all.design.input_names == design.input_names);
+    REQUIRE(all.design.inputs.rows() == 2 * rows);
+    CHECK(all.design.inputs.topRows(rows).leftCols(5) == old.design.inputs);
+    CHECK((all.design.inputs.col(5).head(rows).array() == 0).all());
+    CHECK((all.design.inputs.col(5).tail(rows).array() == 1e-8).all());
+    CHECK(all.provenance == old.provenance);
+}
+
+TEST_CASE("a database made before outlines were kept is read without them", "[batch]") {
+    const SmallBatch batch;
+    batch.run("rows.h5", 2);
+    Database older = read_database(batch.folder / "rows.h5");
+    for (FinishedRun& run : older.runs) run.outline_radius.clear();
+    write_database(batch.folder / "older.h5", older);
+    CHECK_FALSE(Hdf5Reader(batch.folder / "older.h5").has("outline_radius"));
+    for (const FinishedRun& run : read_database(batch.folder / "older.h5").runs)
+        CHECK(run.outline_radius.empty());
 }
 
 TEST_CASE("chunks merge to the bytes of the whole", "[merge]") {

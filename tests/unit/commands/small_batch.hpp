@@ -2,6 +2,7 @@
 
 #include "common/atomic_file.hpp"
 #include "solver/commands/batch.hpp"
+#include "solver/observe/outline.hpp"
 #include "tests/unit/common/temporary_folder.hpp"
 
 #include <atomic>
@@ -40,6 +41,8 @@ inline impact::ImpactResult quick_answer(const impact::ImpactCase& impact_case) 
                     std::numeric_limits<double>::infinity(),
                     std::sqrt(v),
                     impact_case.material.hardening_coefficient};
+    for (std::size_t i = 0; i < observe::outline_points; ++i)
+        result.outline_radius.push_back(1 + v * static_cast<double>(i));
     result.descriptors.plastic_work_J = impact_case.shape.station_radius.front();
     result.steps = static_cast<std::int64_t>(impact_case.seed);
     return result;

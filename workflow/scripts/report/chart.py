@@ -33,7 +33,7 @@ class Points:
     y_error: list | None = None
     labels: list[str] | None = None  # shown when the pointer is over a point
     hollow: bool = False
-    symbol: str = "circle"  # or "cross", "star"
+    symbol: str = "circle"  # or "cross", "star", "diamond"
     size: float = 7
     legend: str = ""
     legend_rank: int = 0
@@ -68,6 +68,20 @@ class Intervals:
     low: list
     high: list
     colour: str = ACCENT
+
+
+@dataclass
+class Spans:
+    """A horizontal bar at each height, from `low` to `high`."""
+
+    y: list
+    low: list
+    high: list
+    colour: str = ACCENT
+    width: float = 7  # [px]
+    opacity: float = 1
+    labels: list[str] | None = None  # shown when the pointer is over an end
+    legend: str = ""
 
 
 @dataclass
@@ -117,6 +131,7 @@ class Panel:
     x_range: tuple[float, float] | None = None
     y_range: tuple[float, float] | None = None
     y_ticks: list[str] | None = None  # names at y = 0, 1, 2 ...
+    x_ticks: list[str] | None = None  # names at x = 0, 1, 2 ...
     hide_y: bool = False
 
 
@@ -129,6 +144,7 @@ class Chart:
     columns: int = 3
     row_height: int = 260  # [px]
     legend: bool = False
+    shared_rows: bool = False  # only the first panel of a row says what its rows are
 
     @property
     def rows(self) -> int:

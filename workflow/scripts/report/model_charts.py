@@ -1,22 +1,18 @@
 """What was measured, and the model against it."""
 
-from statistics import NormalDist, mean
-
 from misfit_by_size import size_before_impact
-from report.chart import PALETTE, Band, Cells, Chart, Intervals, Line, Panel, Points
+from report.chart import PALETTE, Band, Chart, Intervals, Line, Panel, Points
 from report.chart import ordered_colour
 from report.results import Results
-from report.words import SHAPE_WORDS, THIRD_WORDS, lot_words, sentence_case
-from report.words import signed_percent, size_words
+from report.words import SHAPE_WORDS, USE_WORDS, lot_words, sentence_case, size_words
+from study import is_radial
 
 USE_SYMBOL = {"calibrate": {}, "validate": {"hollow": True}, "ignore": {"symbol": "cross"}}
-FULL_COLOUR = 4.0  # mean deviation in standard errors that gets the full colour
-USE_WORDS = {"calibrate": "fitted", "validate": "held back", "ignore": "left out"}
 
 
 def table_chart(results: Results) -> Chart:
     """Which velocities each lot (or shape) covers, and what becomes of each shot."""
-    key, words = _grouping(results)
+    key, words = grouping(results)
     names = list(dict.fromkeys(row[key] for row in results.rows))
     layers = []
     for use, style in USE_SYMBOL.items():
@@ -45,7 +41,8 @@ def table_chart(results: Results) -> Chart:
     )
 
 
-def _grouping(results: Results):
+def grouping(results: Results):
+    """What tells the shots apart, lots or shapes, and how its values are written."""
     if len(results.lots) > 1:
         return "lot", lot_words
     return "shape", SHAPE_WORDS.get
@@ -81,7 +78,7 @@ def _velocity_chart(results: Results, size: str, rows: dict, ratios: list[float]
         for cell in shot["sizes"]:
             if cell["size"] == size:
                 panels.setdefault((shot["lot"], shot["shape"]), []).append((shot, cell))
-    over = "D₀" if "diameter" in size else "L₀"
+    over = "D₀" if is_radial(size) else "L₀"
     shown = []
     for (lot, shape), entries in panels.items():
         layers = _curve_layers(results, size, lot, shape, ratios)
@@ -171,7 +168,7 @@ def _cell_label(shot: dict, cell: dict) -> str:
 
 
 def parity_chart(results: Results) -> Chart:
-    key, words = _grouping(results)
+    key, words = grouping(results)
     names = list(dict.fromkeys(row[key] for row in results.used_rows))
     colours = {name: PALETTE[index % len(PALETTE)] for index, name in enumerate(names)}
     sizes: dict[str, list] = {}
@@ -212,121 +209,4 @@ def parity_chart(results: Results) -> Chart:
         columns=min(3, len(panels)),
         row_height=290,
         legend=True,
-    )
-
-
-def residual_chart(results: Results) -> Chart:
-    """Shape x size against the third of the velocities: mean deviation and its weight."""
-    groups = {
-        _split_key(group["key"]): group
-        for group in results.comparison["groups"]
-        if "shape" in group["by"] and "velocity" in group["by"] and "size" in group["by"]
-    }
-    thirds = [third for third in THIRD_WORDS if any(third in key for key in groups)]
-    pairs = list(dict.fromkeys((key[0], key[1]) for key in groups))
-    several = len({shape for shape, _ in pairs}) > 1
-    names = [
-        f"{SHAPE_WORDS[shape]}, {size_words(size)}" if several else size_words(size)
-        for shape, size in pairs
-    ]
-    cells = [[groups.get((shape, size, third)) for third in thirds] for shape, size in pairs]
-    return _cell_chart(
-        "residuals",
-        "By size and velocity",
-        "Mean deviation of the measurement from the model for each size and third of the "
-        "velocities. Orange: measured larger than the model; blue: smaller; the stronger, the more "
-        "standard errors. The second line gives the root mean square in standard errors "
-        "(whitened; 1 is what the errors explain) and the number of data.",
-        names,
-        [THIRD_WORDS[third] for third in thirds],
-        cells,
-    )
-
-
-def _split_key(key) -> tuple[str, str, str]:
-    """(shape, size, third) of a group's key, in whatever order it is written."""
-    parts = [part.strip() for part in (key.split(" x ") if isinstance(key, str) else key)]
-    shape = next(part for part in parts if part in SHAPE_WORDS)
-    size = next(part for part in parts if part.endswith("_mm"))
-    third = next(part for part in parts if part in THIRD_WORDS)
-    return shape, size, third
-
-
-def lot_residual_chart(results: Results) -> Chart:
-    """The same by lot, which shows a lot that one parameter cannot satisfy."""
-    cells: dict[tuple, list] = {}
-    for shot in results.comparison["shots"]:
-        for cell in shot["sizes"]:
-            cells.setdefault((shot["lot"], cell["size"]), []).append(cell)
-    lots = list(dict.fromkeys(lot for lot, _ in cells))
-    sizes = list(dict.fromkeys(size for _, size in cells))
-
-    def summary(entries):
-        if not entries:
-            return None
-        return {
-            "n": len(entries),
-            "mean_relative": mean(c["residual"] / max(c["measured"], c["sd"]) for c in entries),
-            "mean_standardised": mean(c["standardised"] for c in entries),
-            "whitened_rms": mean(c["whitened"] ** 2 for c in entries) ** 0.5,
-        }
-
-    return _cell_chart(
-        "residuals_by_lot",
-        "By lot",
-        "",
-        [lot_words(lot) for lot in lots],
-        [size_words(size) for size in sizes],
-        [[summary(cells.get((lot, size))) for size in sizes] for lot in lots],
-    )
-
-
-def _cell_chart(name, title, caption, rows, columns, cells) -> Chart:
-    values = [[cell and cell["mean_standardised"] for cell in row] for row in cells]
-    texts = [
-        [
-            (
-                f"<b>{signed_percent(cell['mean_relative'])}</b><br>"
-                f"{cell['whitened_rms']:.1f} s.e., n {cell['n']}"
-                if cell
-                else ""
-            )
-            for cell in row
-        ]
-        for row in cells
-    ]
-    panel = Panel([Cells(rows, columns, values, texts, limit=FULL_COLOUR)])
-    height = 40 + 46 * len(rows)
-    return Chart(name, title, caption, [panel], columns=1, row_height=height)
-
-
-def normal_chart(results: Results) -> Chart:
-    """Whitened deviations against what a normal distribution would give."""
-    panels = []
-    for use in ("calibrate", "validate"):
-        found = sorted(
-            (cell["whitened"], f"<b>{shot['id']}</b><br>{size_words(cell['size'])}")
-            for shot in results.comparison["shots"]
-            for cell in shot["sizes"]
-            if shot["use"] == use
-        )
-        if len(found) < 3:
-            continue
-        count = len(found)
-        expected = [NormalDist().inv_cdf((index + 0.5) / count) for index in range(count)]
-        ends = [expected[0], expected[-1]]
-        points = Points(expected, [w for w, _ in found], labels=[label for _, label in found])
-        points.size = 5
-        points.hollow = use == "validate"
-        x_label = "expected of a normal distribution"
-        layers = [Line(ends, ends, "faint", width=1), points]
-        panels.append(Panel(layers, USE_WORDS[use], x_label, "deviation, standard errors"))
-    return Chart(
-        "normal_plot",
-        "Are the deviations as large as their errors say?",
-        "Points on the line: yes. A steeper run means that the stated errors are too small or "
-        "that the model misses something; single points off the line are odd data.",
-        panels,
-        columns=2,
-        row_height=280,
     )

@@ -4,11 +4,12 @@ import json
 from math import log10
 
 from report.chart import Bars, Band, Cells, Chart, Histogram, Intervals, Line, Map, Panel
-from report.chart import Points, tidy
+from report.chart import Points, Spans, tidy
 
 GAP_X, GAP_TOP, GAP_BOTTOM = 0.075, 30, 54  # share of the width, and px round a panel
+NARROW_GAP_X, LETTER = 0.015, 0.0066  # share of the width: between alike panels, of a letter
 LEGEND_PX = 34
-SYMBOLS = {"circle": "circle", "cross": "x-thin", "star": "star"}
+SYMBOLS = {"circle": "circle", "cross": "x-thin", "star": "star", "diamond": "diamond"}
 
 
 def plotly_json(chart: Chart) -> str:
@@ -32,8 +33,11 @@ def plotly_json(chart: Chart) -> str:
         suffix = "" if index == 0 else str(index + 1)
         domain = _domain(chart, index, height, top)
         layout["xaxis" + suffix], layout["yaxis" + suffix] = _axes(panel, domain, suffix)
+        if chart.shared_rows and index % chart.columns:
+            layout["yaxis" + suffix]["showticklabels"] = False
         if panel.title:
-            layout["annotations"].append(_heading(panel.title, domain, height))
+            above = 24 if _has(panel, Cells) else 8  # names of columns stand above the cells
+            layout["annotations"].append(_heading(panel.title, domain, above / height))
         for layer in panel.layers:
             for trace in _DRAWERS[type(layer)](layer):
                 legend = trace.get("name", "")
@@ -47,11 +51,14 @@ def plotly_json(chart: Chart) -> str:
 
 def _domain(chart: Chart, index: int, height: float, top: float) -> tuple[list, list]:
     row, column = divmod(index, chart.columns)
-    left = GAP_X * (1.9 if _wide_labels(chart) else 1)
-    width = (1 - (chart.columns - 1) * GAP_X - left) / chart.columns
-    x = left + column * (width + GAP_X)
+    left = max(GAP_X * (1.9 if _wide_labels(chart) else 1), LETTER * _longest_name(chart))
+    gap = NARROW_GAP_X if chart.shared_rows else GAP_X
+    width = (1 - (chart.columns - 1) * gap - left) / chart.columns
+    x = left + column * (width + gap)
     labelled = any(panel.x_label for panel in chart.panels)
-    panel_top = height - top - row * chart.row_height - GAP_TOP
+    titled_cells = any(panel.title and _has(panel, Cells) for panel in chart.panels)
+    gap_top = GAP_TOP + (16 if titled_cells else 0)
+    panel_top = height - top - row * chart.row_height - gap_top
     gap_bottom = GAP_BOTTOM if labelled else 8
     panel_bottom = height - top - (row + 1) * chart.row_height + gap_bottom
     return [x, x + width], [panel_bottom / height, panel_top / height]
@@ -59,6 +66,13 @@ def _domain(chart: Chart, index: int, height: float, top: float) -> tuple[list, 
 
 def _wide_labels(chart: Chart) -> bool:
     return any(panel.y_ticks or _has(panel, (Cells, Bars)) for panel in chart.panels)
+
+
+def _longest_name(chart: Chart) -> int:
+    """Letters of the longest name beside the rows of a panel."""
+    names = [name for panel in chart.panels for name in panel.y_ticks or []]
+    cells = [layer for panel in chart.panels for layer in panel.layers if isinstance(layer, Cells)]
+    return max((len(name) for name in (*names, *(n for c in cells for n in c.rows))), default=0)
 
 
 def _has(panel: Panel, kinds) -> bool:
@@ -95,22 +109,32 @@ def _axes(panel: Panel, domain: tuple, suffix: str) -> tuple[dict, dict]:
     if panel.y_ticks:
         y |= {"tickvals": list(range(len(panel.y_ticks))), "ticktext": panel.y_ticks, "ticks": ""}
         y["range"] = [len(panel.y_ticks) - 0.5, -0.5]
+    if panel.x_ticks:
+        x |= {"tickvals": list(range(len(panel.x_ticks))), "ticktext": panel.x_ticks}
+        x["range"] = [-0.3, len(panel.x_ticks) - 0.7]
     if panel.hide_y:
         y |= {"showticklabels": False, "ticks": "", "showgrid": False}
     names = {"autorange": "reversed", "showgrid": False, "ticks": "", "dtick": 1}
     if _has(panel, Cells):
-        y |= {**names, "showline": False}
-        x |= {"showgrid": False, "ticks": "", "side": "top", "showline": False, "dtick": 1}
+        y |= {**names, "type": "category", "showline": False}
+        x |= {
+            "type": "category",
+            "showgrid": False,
+            "ticks": "",
+            "side": "top",
+            "showline": False,
+            "dtick": 1,
+        }
     if _has(panel, Bars):
         y |= names
     return x, y
 
 
-def _heading(text: str, domain: tuple, height: float) -> dict:
+def _heading(text: str, domain: tuple, above: float) -> dict:
     return {
         "text": f"<b>{text}</b>",
         "x": domain[0][0],
-        "y": domain[1][1] + 8 / height,
+        "y": domain[1][1] + above,
         "xref": "paper",
         "yref": "paper",
         "xanchor": "left",
@@ -195,6 +219,30 @@ def _intervals(layer: Intervals) -> list[dict]:
     return [{"type": "scatter", "mode": "lines", "x": x, "y": y, "line": line, "hoverinfo": "skip"}]
 
 
+def _spans(layer: Spans) -> list[dict]:
+    x, y, labels = [], [], []
+    for at, low, high, label in zip(
+        layer.y, layer.low, layer.high, layer.labels or [""] * len(layer.y), strict=True
+    ):
+        x += [tidy(low), tidy(high), None]
+        y += [at, at, None]
+        labels += [label, label, ""]
+    colour = _themed(layer.colour)
+    trace = {
+        "type": "scatter",
+        "mode": "lines",
+        "x": x,
+        "y": y,
+        "line": {"color": colour, "width": layer.width},
+        "opacity": layer.opacity,
+        "name": layer.legend,
+        "hoverinfo": "skip",
+    }
+    if layer.labels:
+        trace |= {"text": labels, "hoverinfo": "text"}
+    return [trace]
+
+
 def _bars(layer: Bars) -> list[dict]:
     return [
         {
@@ -276,8 +324,9 @@ def _cell_texts(layer: Cells, suffix: str) -> list[dict]:
             "showarrow": False,
             "font": {"size": 11.5, "color": "var:ink"},
         }
-        for row, texts in zip(layer.rows, layer.texts, strict=True)
-        for column, text in zip(layer.columns, texts, strict=True)
+        for row, texts in enumerate(layer.texts)
+        for column, text in enumerate(texts)
+        if text
     ]
 
 
@@ -286,6 +335,7 @@ _DRAWERS = {
     Line: _line,
     Band: _band,
     Intervals: _intervals,
+    Spans: _spans,
     Bars: _bars,
     Histogram: _histogram,
     Map: _map,

@@ -7,10 +7,10 @@ from matplotlib.colors import LinearSegmentedColormap, Normalize, to_rgba
 from matplotlib.figure import Figure
 
 from report.chart import Bars, Band, Cells, Chart, Histogram, Intervals, Line, Map, Panel
-from report.chart import Points
+from report.chart import Points, Spans
 
-THEME = {"ink": "#1f2328", "faint": "#9aa1a9"}
-SYMBOLS = {"circle": "o", "cross": "x", "star": "*"}
+THEME = {"ink": "#1f2328", "soft": "#5c646d", "faint": "#9aa1a9", "grid": "#e8eaed"}
+SYMBOLS = {"circle": "o", "cross": "x", "star": "*", "diamond": "D"}
 WIDTH_INCHES, PIXELS_PER_INCH = 10.4, 96
 STYLE = {
     "font.size": 9,
@@ -21,7 +21,7 @@ STYLE = {
     "axes.spines.right": False,
     "axes.edgecolor": THEME["faint"],
     "axes.grid": True,
-    "grid.color": "#e8eaed",
+    "grid.color": THEME["grid"],
     "legend.frameon": False,
     "svg.hashsalt": "taylorcal",
 }
@@ -36,8 +36,10 @@ def save_png(chart: Chart, folder: Path, mark: str = "") -> None:
         grid = figure.subplots(chart.rows, chart.columns, squeeze=False).ravel()
         for axes in grid[len(chart.panels) :]:
             axes.set_axis_off()
-        for axes, panel in zip(grid, chart.panels):
+        for index, (axes, panel) in enumerate(zip(grid, chart.panels)):
             _draw(axes, panel)
+            if chart.shared_rows and index % chart.columns:
+                axes.tick_params(labelleft=False)
         if chart.legend:
             entries = {}
             for axes in grid:
@@ -75,6 +77,9 @@ def _draw(axes, panel: Panel) -> None:
     if panel.y_ticks:
         axes.set_yticks(range(len(panel.y_ticks)), panel.y_ticks)
         axes.set_ylim(len(panel.y_ticks) - 0.5, -0.5)
+    if panel.x_ticks:
+        axes.set_xticks(range(len(panel.x_ticks)), panel.x_ticks)
+        axes.set_xlim(-0.3, len(panel.x_ticks) - 0.7)
     if panel.hide_y:
         axes.set_yticks([])
 
@@ -116,6 +121,19 @@ def _band(axes, layer: Band) -> None:
 
 def _intervals(axes, layer: Intervals) -> None:
     axes.vlines(layer.x, layer.low, layer.high, color=layer.colour, alpha=0.3, lw=5)
+
+
+def _spans(axes, layer: Spans) -> None:
+    axes.hlines(
+        layer.y,
+        layer.low,
+        layer.high,
+        color=_colour(layer.colour),
+        alpha=layer.opacity,
+        lw=layer.width * 0.75,
+        label=layer.legend or None,
+        zorder=2,
+    )
 
 
 def _bars(axes, layer: Bars) -> None:
@@ -160,6 +178,7 @@ _DRAWERS = {
     Line: _line,
     Band: _band,
     Intervals: _intervals,
+    Spans: _spans,
     Bars: _bars,
     Histogram: _histogram,
     Map: _map,

@@ -31,23 +31,44 @@ def marginal_chart(results: Results) -> Chart:
         base, lot = split_name(name)
         if name not in results.posterior.maps_1d:
             continue
-        panel = panels.setdefault(base, _marginal_panel(results, base))
         edges, density = results.posterior.maps_1d[name]
-        middles = np.sqrt(edges[1:] * edges[:-1]) if panel.x_log else (edges[1:] + edges[:-1]) / 2
+        log = _is_log(results, base)
+        middles = np.sqrt(edges[1:] * edges[:-1]) if log else (edges[1:] + edges[:-1]) / 2
         height = density / (density.max() or 1)
+        if base not in panels:
+            panels[base] = _marginal_panel(results, base)
+            panels[base].layers += _prior_lines(results, base, edges, density)
+        panel = panels[base]
         colour = PALETTE[results.lots.index(lot) % len(PALETTE)] if lot else PALETTE[0]
         words = lot_words(lot) if lot else ""
         panel.layers.append(Line(list(middles), list(height), colour, filled=True, legend=words))
     return Chart(
         "posterior_marginals",
         "Each parameter by itself",
-        "Probability density after the fit, scaled to one height. The axis of a calibrated "
-        "parameter spans its whole prior range, so a narrow peak is what the data taught.",
+        "Probability density after the fit, scaled to one height, and before it (dotted: the "
+        "prior, to the scale of the first curve). The axis of a calibrated parameter spans its "
+        "whole prior range, so a narrow peak is what the data taught.",
         list(panels.values()),
         columns=2,
         row_height=250,
-        legend=any(split_name(name)[1] for name in results.posterior.names),
+        legend=True,
     )
+
+
+def _prior_lines(results: Results, base: str, edges, density) -> list[Line]:
+    """The prior at the height that makes its area that of the posterior."""
+    parameter = results.settings["parameters"].get(base)
+    if parameter is None:
+        return []
+    scale = np.log10 if _is_log(results, base) else np.asarray
+    place = np.linspace(*scale([parameter["lower"], parameter["upper"]]), 101)
+    # An effect's amplitude has a normal prior around its absence; the others are flat.
+    normal = parameter["prior"] in ("normal", "half_normal")
+    shape = np.exp(-0.5 * (place / parameter["scale"]) ** 2) if normal else np.ones_like(place)
+    area = np.sum(density * np.diff(scale(edges))) / (density.max() or 1)
+    shape *= area / np.trapz(shape, place)
+    x = 10 ** place if _is_log(results, base) else place
+    return [Line(list(x), list(shape), "soft", dashed=True, legend="prior")]
 
 
 def _marginal_panel(results: Results, base: str) -> Panel:

@@ -13,10 +13,11 @@ def provenance_tables(results: Results) -> list[dict]:
         ("Posterior", results.posterior.attributes),
         ("Comparison", results.comparison),
     ]
-    return [_stage(title, record) for title, record in stages]
+    return [stage_provenance(title, record) for title, record in stages]
 
 
-def _stage(title: str, record: dict) -> dict:
+def stage_provenance(title: str, record: dict) -> dict:
+    """One stage: its title, its provenance as rows, its configuration as text."""
     facts = dict(record.get("provenance", {}))
     configuration = facts.pop("configuration", None) or record.get("configuration")
     return {

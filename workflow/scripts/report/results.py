@@ -9,6 +9,7 @@ import h5py
 import numpy as np
 
 from measurements import read_measurements
+from outlines.basis import OutlineBasis, read_basis
 
 
 @dataclass
@@ -34,6 +35,15 @@ class Database:
 
 
 @dataclass
+class Outlines:
+    """Of a study that compares measured outlines."""
+
+    table: Path  # beside which the outlines lie
+    basis: OutlineBasis
+    projections: dict  # by id; see outlines.table.projection_document
+
+
+@dataclass
 class Results:
     settings: dict
     rows: list[dict]
@@ -42,6 +52,7 @@ class Results:
     posterior: Posterior
     database: Database
     stage_costs: list[dict]  # {"stage", "jobs", "wall_s", "cpu_s", "memory_MB"}
+    outlines: Outlines | None = None
 
     @property
     def lots(self) -> list[str]:
@@ -61,7 +72,15 @@ def load_results(inputs: dict[str, Path], benchmarks: Path) -> Results:
         posterior=_posterior(inputs["posterior"]),
         database=_database(inputs["database"]),
         stage_costs=_stage_costs(benchmarks),
+        outlines=_outlines(inputs),
     )
+
+
+def _outlines(inputs: dict[str, Path]) -> Outlines | None:
+    if "outline_basis" not in inputs:
+        return None
+    basis, projections = read_basis(inputs["outline_basis"]), _json(inputs["outline_scores"])
+    return Outlines(inputs["measurements"], basis, projections)
 
 
 def _json(path: Path) -> dict:

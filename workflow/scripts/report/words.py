@@ -2,7 +2,9 @@
 
 import math
 
-from markupsafe import Markup
+from markupsafe import Markup, escape
+
+from study import OUTLINE_SCORES
 
 SIZE_WORDS = {
     "final_length_mm": "final length",
@@ -12,6 +14,7 @@ SIZE_WORDS = {
     "transition_diameter_mm": "transition diameter",
     "undeformed_length_mm": "undeformed length",
     "diameter_at_0p2L0_mm": "diameter at 0.2 L0",
+    **{name: f"outline, component {name[-1]}" for name in OUTLINE_SCORES},
 }
 SHAPE_WORDS = {
     "all": "all shapes",
@@ -26,13 +29,45 @@ PARAMETER_WORDS = {
     "immobilization_velocity": "immobilization velocity",
     "unexplained_spread": "unexplained spread",
 }
+EFFECT_WORDS = {
+    "anvil_friction": "friction on the anvil",
+    "thermal_softening": "thermal softening",
+    "hall_petch": "strengthening by grain refinement",
+    "damage_softening": "softening by weakened areas",
+    "phonon_drag": "phonon drag",
+    "taylor_quinney_shift": "share of work turned to heat",
+    "back_stress": "back stress",
+    "rod_texture": "texture of the rod",
+    "hard_skin": "hard machined skin",
+    "forest_storage": "storage at the forest",
+    "elastic_anvil": "elastic anvil",
+    "oblique_impact": "oblique impact",
+    "dynamic_recovery": "dynamic recovery",
+    "velocity_bias": "error of the velocity meter",
+}
 PARAMETER_SYMBOLS = {
     "rho_immobile_initial": "ρ<sub>I</sub>(0)",
     "hardening_coefficient": "A<sub>I</sub>",
     "immobilization_velocity": "V<sub>I</sub>",
     "unexplained_spread": "τ",
 }
+GREEK = {
+    "alpha": "α",
+    "beta": "β",
+    "gamma": "γ",
+    "delta": "δ",
+    "eta": "η",
+    "kappa": "κ",
+    "lambda": "λ",
+    "mu": "μ",
+    "rho": "ρ",
+    "sigma": "σ",
+    "tau": "τ",
+    "theta": "θ",
+    "chi": "χ",
+}
 UNIT_WORDS = {"none": "", "1/m2": "m⁻²"}
+USE_WORDS = {"calibrate": "fitted", "validate": "held back", "ignore": "left out"}
 THIRD_WORDS = {"low": "slow third", "middle": "middle third", "high": "fast third"}
 
 
@@ -48,8 +83,12 @@ def lot_words(lot: str) -> str:
 
 def parameter_words(name: str) -> str:
     base, lot = split_name(name)
-    words = PARAMETER_WORDS.get(base, base.replace("_", " "))
+    words = PARAMETER_WORDS.get(base, effect_words(base))
     return f"{words}, {lot_words(lot)}" if lot else words
+
+
+def effect_words(name: str) -> str:
+    return EFFECT_WORDS.get(name, name.replace("_", " "))
 
 
 def size_words(size: str) -> str:
@@ -71,6 +110,13 @@ def number(value: float, digits: int = 3) -> Markup:
     return Markup(f"{mantissa}\u202f×\u202f10<sup>{exponent}</sup>")
 
 
+def symbol(name: str) -> Markup:
+    """μ of "mu", k with HP below of "k_HP"; other text as it is."""
+    parts = [" ".join(GREEK.get(w, w) for w in part.split(" ")) for part in name.split("_")]
+    letters = [escape(part) for part in parts]
+    return letters[0] + Markup("").join(Markup("<sub>{}</sub>").format(b) for b in letters[1:])
+
+
 def sentence_case(text: str) -> str:
     return text[:1].upper() + text[1:]
 
@@ -84,7 +130,22 @@ def percent(share: float | None, digits: int = 1) -> str:
 def signed_percent(share: float | None, digits: int = 1) -> str:
     if share is None:
         return "–"
-    return f"{100 * share:+.{digits}f}\u202f%".replace("-", "−")
+    return f"{signed(100 * share, digits)}\u202f%"
+
+
+def signed(value: float | None, digits: int = 1) -> str:
+    """+1.2 or −0.3"""
+    if value is None:
+        return "–"
+    rounded = round(value, digits) + 0.0  # -0.0 becomes 0.0
+    return f"{rounded:+.{digits}f}".replace("-", "−")
+
+
+def probability(p: float | None) -> str:
+    """0.34, 0.0021 or < 0.0001"""
+    if p is None:
+        return "–"
+    return "< 0.0001" if p < 1e-4 else f"{p:.2g}"
 
 
 def duration(seconds: float) -> str:

@@ -1,0 +1,134 @@
+#include "calibrate/commands/diagnose.hpp"
+
+#include "calibrate/diagnosis/candidates_file.hpp"
+#include "calibrate/diagnosis/shot_design.hpp"
+#include "common/atomic_file.hpp"
+#include "common/errors.hpp"
+#include "common/json_reader.hpp"
+#include "common/provenance.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+#include <spdlog/spdlog.h>
+
+namespace taylorcal::calibrate {
+namespace {
+
+constexpr std::size_t shots_in_diagnosis = 5;
+constexpr std::size_t shots_in_design = 20;
+
+/// Everything read, and the diagnosis of it.
+class DiagnosedStudy {
+  public:
+    DiagnosedStudy(const InputPaths& files, const DiagnosisPaths& paths, int threads)
+        : inputs_(files),
+          levels_(spread_levels(inputs_.settings)),
+          posterior_(
+              read_posterior(paths.posterior, inputs_.space, levels_, inputs_.settings)),
+          study_(read(paths, threads)) {
+        require(inputs_.settings.likelihood == LikelihoodForm::full,
+                fmt::format("{}: likelihood = paper has no model of the errors, without "
+                            "which nothing can be found missing. Set it to full.",
+                            files.settings.string()));
+        const auto problem_at = [&](const Eigen::VectorXd& unit) {
+            return study_.problem_at(unit);
+        };
+        result = calibrate::diagnose(problem_at, study_.starts());
+    }
+    DiagnosisProblem problem() const {
+        return study_.problem_at(result.modes.front().base.unit);
+    }
+    const DiagnosisStudy& study() const { return study_; }
+    nlohmann::json provenance_of_inputs() const {
+        return provenance("calibrate", inputs_.settings.seed, inputs_.settings.source);
+    }
+
+    Diagnosis result;
+
+  private:
+    DiagnosisInputs read(const DiagnosisPaths& paths, int threads) const {
+        DiagnosisInputs all{inputs_.settings,
+                            inputs_.set,
+                            inputs_.space,
+                            inputs_.predictor,
+                            posterior_,
+                            read_candidates(paths.candidates),
+                            {},
+                            {},
+                            threads};
+        all.runs = read_paired_runs(paths.signatures, inputs_.settings, all.candidates);
+        for (std::size_t k = 0; k < all.candidates.size(); ++k)
+            if (!all.runs.has_column[k])
+                spdlog::warn("{}: no column {}; it could not be seen",
+                             paths.signatures.string(), all.candidates[k].name);
+        all.finer.resize(all.runs.bases.size());
+        if (!paths.finer.empty())
+            all.finer = finer_changes(
+                all.runs, read_paired_runs(paths.finer, inputs_.settings, all.candidates),
+                paths.finer);
+        return all;
+    }
+
+    StudyInputs inputs_;
+    SpreadLevels levels_;
+    StoredPosterior posterior_;
+    DiagnosisStudy study_;
+};
+
+}  // namespace
+
+void diagnose(const InputPaths& files, const DiagnosisPaths& paths,
+              const std::filesystem::path& out, int threads) {
+    const DiagnosedStudy diagnosed(files, paths, threads);
+    const DiagnosisProblem problem = diagnosed.problem();
+    DiagnosisFacts facts = diagnosed.study().facts(problem, diagnosed.result);
+    facts.next_experiments =
+        design_shots(diagnosed.study(), problem, diagnosed.result.modes.front(),
+                     diagnosed.result.verdict.effects, shots_in_diagnosis);
+    nlohmann::json json = to_json(problem, diagnosed.result, facts);
+    json["provenance"] = diagnosed.provenance_of_inputs();
+    write_text_atomically(out, json.dump(1) + "\n");
+    fmt::print("verdict: {}\n{}\n", json["verdict"]["kind"].get<std::string>(),
+               json["verdict"]["words"].get<std::string>());
+    for (const auto& candidate : json["candidates"])
+        fmt::print("  {}\n", candidate["words"].get<std::string>());
+}
+
+void design(const InputPaths& files, const DiagnosisPaths& paths,
+            const std::filesystem::path& diagnosis, const std::filesystem::path& out,
+            int threads) {
+    const JsonReader stored = JsonReader::from_file(diagnosis);
+    require(stored.text("schema") == "taylorcal/diagnosis/1",
+            fmt::format("{}: its schema is {} (expected taylorcal/diagnosis/1). Diagnose "
+                        "again.",
+                        diagnosis.string(), stored.text("schema")));
+    const std::vector<std::string> names = stored.object("verdict").texts("effects");
+    const DiagnosedStudy diagnosed(files, paths, threads);
+    const DiagnosisProblem problem = diagnosed.problem();
+    std::vector<std::size_t> set;
+    for (const std::string& name : names) {
+        const auto found =
+            std::find_if(problem.candidates.begin(), problem.candidates.end(),
+                         [&](const Candidate& c) { return c.name == name; });
+        require(
+            found != problem.candidates.end(),
+            fmt::format("{}: its verdict names {}, which is not among the candidates. "
+                        "Diagnose again with these candidates.",
+                        diagnosis.string(), name));
+        set.push_back(static_cast<std::size_t>(found - problem.candidates.begin()));
+    }
+    const std::vector<NextExperiment> shots = design_shots(
+        diagnosed.study(), problem, diagnosed.result.modes.front(), set, shots_in_design);
+    const nlohmann::json json{{"schema", "taylorcal/next_experiment/1"},
+                              {"effects", names},
+                              {"next_experiments", to_json(shots)},
+                              {"provenance", diagnosed.provenance_of_inputs()}};
+    write_text_atomically(out, json.dump(1) + "\n");
+    for (std::size_t i = 0; i < std::min<std::size_t>(5, shots.size()); ++i)
+        fmt::print("{}\n", shots[i].words);
+}
+
+}  // namespace taylorcal::calibrate

@@ -1,0 +1,98 @@
+#include "calibrate/diagnosis/diagnosis.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace taylorcal::calibrate {
+namespace {
+
+constexpr double least_share = 0.05;
+constexpr std::size_t most_modes = 4;
+
+struct Peak {
+    Refit fit;
+    double height;
+};
+
+/// Distinct fits, the highest first. Fits whose predictions lie within one standard error
+/// in all are points of one ridge.
+std::vector<Peak> find_peaks(const DiagnosisProblem& problem, const RowMatrix& starts) {
+    constexpr double same = 1;
+    const Whitening whiten(problem.covariance);
+    std::vector<Peak> all;
+    for (Eigen::Index i = 0; i < starts.rows(); ++i) {
+        Refit fit =
+            refit(problem, whiten, {}, starts.row(i).transpose(), Eigen::VectorXd());
+        const double height = log_average_likelihood(fit, whiten.log_determinant());
+        all.push_back({std::move(fit), height});
+    }
+    std::stable_sort(all.begin(), all.end(),
+                     [](const auto& a, const auto& b) { return a.height > b.height; });
+    std::vector<Peak> peaks;
+    for (Peak& peak : all) {
+        const bool is_known = std::any_of(peaks.begin(), peaks.end(), [&](const Peak& p) {
+            return (p.fit.residual - peak.fit.residual).norm() < same;
+        });
+        if (is_known || peak.height < all.front().height + std::log(least_share))
+            continue;
+        if (peaks.size() < most_modes) peaks.push_back(std::move(peak));
+    }
+    return peaks;
+}
+
+bool names_effects(VerdictKind kind) {
+    return kind == VerdictKind::effect || kind == VerdictKind::one_of;
+}
+
+bool same_suspects(const Verdict& a, const Verdict& b) {
+    if (a.suspects.size() != b.suspects.size()) return false;
+    for (std::size_t i = 0; i < a.suspects.size(); ++i)
+        if (a.suspects[i].shot != b.suspects[i].shot) return false;
+    return true;
+}
+
+}  // namespace
+
+Verdict worst_case(const std::vector<ModeDiagnosis>& modes) {
+    Verdict verdict = modes.front().verdict;
+    for (const ModeDiagnosis& mode : modes) {
+        const Verdict& other = mode.verdict;
+        if (!other.is_flagged) return other;
+        if (other.kind == verdict.kind && other.effects == verdict.effects &&
+            same_suspects(other, verdict))
+            continue;
+        for (const std::size_t k : other.effects)
+            if (std::count(verdict.effects.begin(), verdict.effects.end(), k) == 0)
+                verdict.effects.push_back(k);
+        if (!same_suspects(other, verdict))
+            verdict.suspects.insert(verdict.suspects.end(), other.suspects.begin(),
+                                    other.suspects.end());
+        verdict.kind = names_effects(other.kind) && names_effects(verdict.kind)
+                           ? VerdictKind::one_of
+                           : VerdictKind::not_distinguishable;
+    }
+    return verdict;
+}
+
+Diagnosis diagnose(const ProblemAt& problem_at, const RowMatrix& starts) {
+    const DiagnosisProblem first = problem_at(starts.row(0).transpose());
+    const NormalTable table(first.seed, most_statistics(first));
+    Diagnosis diagnosis;
+    for (const Peak& peak : find_peaks(first, starts))
+        diagnosis.modes.push_back(
+            diagnose_mode(problem_at(peak.fit.unit), peak.fit.unit, table));
+    const auto higher = [](const auto& a, const auto& b) {
+        return a.log_height > b.log_height;
+    };
+    std::stable_sort(diagnosis.modes.begin(), diagnosis.modes.end(), higher);
+    double sum = 0;
+    const double highest = diagnosis.modes.front().log_height;
+    for (const ModeDiagnosis& mode : diagnosis.modes)
+        sum += std::exp(mode.log_height - highest);
+    for (ModeDiagnosis& mode : diagnosis.modes)
+        mode.share = std::exp(mode.log_height - highest) / sum;
+    diagnosis.verdict = worst_case(diagnosis.modes);
+    return diagnosis;
+}
+
+}  // namespace taylorcal::calibrate

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "calibrate/diagnosis/mode_diagnosis.hpp"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace taylorcal::calibrate {
+
+/// A diagnosis over all modes of the parameters that count.
+struct Diagnosis {
+    std::vector<ModeDiagnosis> modes;  ///< the likeliest first
+    Verdict verdict;                   ///< worst case over the modes
+};
+
+/// The problem seen from one point of the parameters: errors depend on it.
+using ProblemAt = std::function<DiagnosisProblem(const Eigen::VectorXd& unit)>;
+
+/// Fits from every start (a row; points of the unit cube), keeps the fits that predict
+/// differently and have at least 5 % of the evidence, and diagnoses at each.
+Diagnosis diagnose(const ProblemAt& problem_at, const RowMatrix& starts);
+
+/// No effect is supported if any mode explains the data. An effect that one mode needs
+/// and another does not see is never the only answer.
+Verdict worst_case(const std::vector<ModeDiagnosis>& modes);
+
+/// One paragraph for a materials scientist.
+std::string verdict_words(const DiagnosisProblem& problem, const Diagnosis& diagnosis);
+std::string candidate_words(const Candidate& candidate, const CandidateRecord& record);
+std::string unexplained_words(const Unexplained& unexplained);
+
+/// "anvil friction" of "anvil_friction".
+std::string in_words(const std::string& name);
+
+}  // namespace taylorcal::calibrate

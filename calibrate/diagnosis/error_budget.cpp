@@ -1,0 +1,174 @@
+#include "calibrate/diagnosis/error_budget.hpp"
+
+#include <cmath>
+#include <vector>
+
+#include <fmt/core.h>
+
+namespace taylorcal::calibrate {
+namespace {
+
+/// A measured number with what the errors need of it.
+struct Place {
+    const Datum* datum;
+    Eigen::Index output;    // among the shape's fits
+    Eigen::VectorXd terms;  // of the fit in question
+};
+
+template <class FitOfShape>
+std::vector<Place> places_in(const CorrectedPredictor& predictor,
+                             const CorrectedModel& model, const FitOfShape& fit_of) {
+    std::vector<Place> places;
+    for (const Datum* datum : model.data()) {
+        const ShapeSignature& shape = predictor.signature(datum->shot.shape);
+        const SmoothFit* fit = fit_of(shape);
+        const Eigen::VectorXd terms =
+            fit ? shape.terms(
+                      *fit, predictor.inputs(datum->shot, model.reference_of(*datum)), 1)
+                : Eigen::VectorXd();
+        for (const Eigen::Index column : datum->columns)
+            places.push_back({datum, shape.output_of(column), terms});
+    }
+    return places;
+}
+
+/// Adds D_i D_j noise_ab x [within(shot) + terms_i spread terms_j] for pairs of a shape.
+void add_fit_errors(const std::vector<Place>& places, const CorrectedPredictor& predictor,
+                    const auto& fit_of, Eigen::MatrixXd* of_points,
+                    Eigen::MatrixXd* of_coefficients) {
+    const auto n = static_cast<Eigen::Index>(places.size());
+    for (Eigen::Index i = 0; i < n; ++i) {
+        const Place& a = places[static_cast<std::size_t>(i)];
+        const SmoothFit* fit = fit_of(predictor.signature(a.datum->shot.shape));
+        if (!fit) continue;
+        const Eigen::VectorXd spread = fit->spread * a.terms;
+        for (Eigen::Index j = 0; j < n; ++j) {
+            const Place& b = places[static_cast<std::size_t>(j)];
+            if (b.datum->shot.shape != a.datum->shot.shape) continue;
+            const double size = a.datum->shot.initial_diameter_mm *
+                                b.datum->shot.initial_diameter_mm *
+                                fit->noise(a.output, b.output);
+            if (of_points && a.datum == b.datum) (*of_points)(i, j) += size;
+            if (of_coefficients) (*of_coefficients)(i, j) += size * spread.dot(b.terms);
+        }
+    }
+}
+
+/// Directions in which a coarser mesh moves all shots of a shape: the whole pattern, and
+/// half of it by size, as the pattern is known from few runs.
+void add_resolution(const CorrectedPredictor& predictor, const std::vector<Place>& places,
+                    Eigen::MatrixXd& covariance) {
+    constexpr double by_size = 0.5;
+    const auto n = static_cast<Eigen::Index>(places.size());
+    Eigen::VectorXd pattern = Eigen::VectorXd::Zero(n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+        const Place& place = places[static_cast<std::size_t>(i)];
+        const auto& fit = predictor.signature(place.datum->shot.shape).resolution;
+        if (fit)
+            pattern(i) =
+                place.datum->shot.initial_diameter_mm * (*fit)(place.terms)(place.output);
+    }
+    for (Eigen::Index i = 0; i < n; ++i)
+        for (Eigen::Index j = 0; j < n; ++j) {
+            const Place& a = places[static_cast<std::size_t>(i)];
+            const Place& b = places[static_cast<std::size_t>(j)];
+            if (a.datum->shot.shape != b.datum->shot.shape) continue;
+            const double share = 1 + (a.output == b.output ? by_size * by_size : 0);
+            covariance(i, j) += share * pattern(i) * pattern(j);
+        }
+}
+
+const SmoothFit* network_error_of(const ShapeSignature& shape) {
+    return &shape.network_error;
+}
+
+double velocity_sd(const Settings& settings, const Shot& shot) {
+    return shot.velocity_sd_m_s.value_or(settings.velocity_sd_relative *
+                                         shot.velocity_m_s);
+}
+
+}  // namespace
+
+ErrorBudget error_budget(const CorrectedPredictor& predictor, const CorrectedModel& model,
+                         const Settings& settings) {
+    const std::vector<Place> places = places_in(predictor, model, network_error_of);
+    const auto n = static_cast<Eigen::Index>(places.size());
+    const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(n, n);
+    ErrorBudget budget{none, none, none, none, none};
+    Eigen::Index at = 0;
+    for (const Datum* datum : model.data()) {
+        const auto count = static_cast<Eigen::Index>(datum->columns.size());
+        const Eigen::VectorXd slope =
+            predictor.velocity_slope(
+                datum->shot, model.reference_of(*datum).transpose())(datum->columns) *
+            velocity_sd(settings, datum->shot);
+        budget.measurement.diagonal().segment(at, count) = datum->sd_mm.cwiseAbs2();
+        budget.velocity.block(at, at, count, count) = slope * slope.transpose();
+        at += count;
+    }
+    add_fit_errors(places, predictor, network_error_of, &budget.scatter,
+                   &budget.correction);
+    add_resolution(predictor,
+                   places_in(predictor, model,
+                             [](const ShapeSignature& shape) {
+                                 return shape.resolution ? &*shape.resolution : nullptr;
+                             }),
+                   budget.resolution);
+    return budget;
+}
+
+std::string ErrorBudget::words(const CorrectedModel& model) const {
+    Eigen::VectorXd scale(measurement.rows());
+    Eigen::Index at = 0;
+    for (const Datum* datum : model.data()) {
+        scale.segment(at, datum->scale_mm.size()) = datum->scale_mm;
+        at += datum->scale_mm.size();
+    }
+    const auto share = [&](const Eigen::MatrixXd& part) {
+        return 100 * std::sqrt((part.diagonal().array() / scale.array().square()).mean());
+    };
+    return fmt::format(
+        "Errors counted, root mean square in per cent of the sizes: measurement {:.2f}, "
+        "velocity {:.2f}, scatter of the solver between sets of grains {:.2f}, the "
+        "network's own error after its correction {:.2f}, {}.",
+        share(measurement), share(velocity), share(scatter), share(correction),
+        resolution.isZero()
+            ? std::string("resolution not counted (no finer runs were given)")
+            : fmt::format("resolution of the solver {:.2f}", share(resolution)));
+}
+
+Eigen::MatrixXd effect_errors(const CorrectedPredictor& predictor,
+                              const CorrectedModel& model, std::size_t k) {
+    const auto fit_of = [k](const ShapeSignature& shape) {
+        return shape.effects[k] ? &*shape.effects[k] : nullptr;
+    };
+    const std::vector<Place> places = places_in(predictor, model, fit_of);
+    const auto n = static_cast<Eigen::Index>(places.size());
+    Eigen::MatrixXd errors = Eigen::MatrixXd::Zero(n, n);
+    add_fit_errors(places, predictor, fit_of, &errors, &errors);
+    return errors / std::pow(predictor.typical(k), 2);
+}
+
+Eigen::MatrixXd covariance_of_new_shot(const CorrectedPredictor& predictor,
+                                       const Settings& settings, const Shot& shot,
+                                       const RowMatrix& parameters,
+                                       const Eigen::VectorXd& relative_sd) {
+    const ShapeSignature& shape = predictor.signature(shot.shape);
+    const Eigen::VectorXd sizes =
+        predictor.predict(shot, parameters).row(0).transpose()(shape.sizes);
+    const Eigen::VectorXd slope =
+        predictor.velocity_slope(shot, parameters)(shape.sizes) *
+        velocity_sd(settings, shot);
+    Eigen::MatrixXd covariance = slope * slope.transpose();
+    covariance.diagonal() += sizes.cwiseProduct(relative_sd(shape.sizes)).cwiseAbs2();
+    const double area = shot.initial_diameter_mm * shot.initial_diameter_mm;
+    covariance += area * shape.network_error.noise;
+    if (shape.resolution) {
+        const Eigen::VectorXd pattern = (*shape.resolution)(shape.terms(
+            *shape.resolution, predictor.inputs(shot, parameters.row(0).transpose())));
+        covariance += area * pattern * pattern.transpose();
+    }
+    return covariance;
+}
+
+}  // namespace taylorcal::calibrate

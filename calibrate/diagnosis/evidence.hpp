@@ -1,0 +1,46 @@
+#pragma once
+
+#include "calibrate/diagnosis/refit.hpp"
+
+#include <optional>
+
+namespace taylorcal::calibrate {
+
+/// One candidate switched on: best fit, evidence and amplitude.
+struct EffectEvidence {
+    Refit fit;
+    double log_gain = 0;  ///< ln Z_k - ln Z_0
+    double log_gain_half_width = 0;
+    double log_gain_double_width = 0;
+    double mean = 0;  ///< of the amplitude's posterior
+    double sd = 0;
+    double lower95 = 0;
+    double upper95 = 0;
+};
+
+/// ln of the likelihood averaged over the parameters about a fit, by Laplace's
+/// approximation, but for constants that all fits of a problem share. A parameter that
+/// the data do not feel counts with its prior's width.
+double log_average_likelihood(const Refit& fit, double log_determinant);
+
+/// C with the errors of the effects' signatures at their amplitudes.
+Eigen::MatrixXd covariance_with(const DiagnosisProblem& problem,
+                                const std::vector<std::size_t>& effects,
+                                const Eigen::VectorXd& amplitudes);
+
+/// Refits parameters and amplitudes together; where signatures have errors, once more
+/// with the errors at that amplitude in `whiten`.
+Refit refit_with(const DiagnosisProblem& problem, std::optional<Whitening>& whiten,
+                 const std::vector<std::size_t>& effects, const Refit& base);
+
+/// ln Z_k - ln Z_0 by integrating over the amplitude the likelihood that is, at each of
+/// its values, refitted and averaged over the parameters; with the candidate's prior, cut
+/// to its physical range.
+EffectEvidence effect_evidence(const DiagnosisProblem& problem, const Whitening& whiten,
+                               const Refit& base, std::size_t k);
+
+/// The same for several candidates at once by Laplace's approximation.
+double pair_evidence(const DiagnosisProblem& problem, const Whitening& whiten,
+                     const Refit& base, const Refit& fit, double log_determinant);
+
+}  // namespace taylorcal::calibrate

@@ -1,0 +1,169 @@
+#include "calibrate/diagnosis/leave_out.hpp"
+#include "calibrate/diagnosis/tail_probability.hpp"
+#include "tests/unit/diagnosis/linear_table.hpp"
+
+#include <cmath>
+
+#include <Eigen/Dense>
+#include <catch2/catch.hpp>
+
+using namespace taylorcal;
+using namespace taylorcal::calibrate;
+
+namespace {
+
+/// ln N(x; 0, C).
+double log_density(const Eigen::VectorXd& x, const Eigen::MatrixXd& covariance) {
+    return -0.5 *
+           (x.dot(covariance.ldlt().solve(x)) + std::log(covariance.determinant()) +
+            static_cast<double>(x.size()) * std::log(2 * M_PI));
+}
+
+}  // namespace
+
+TEST_CASE("tails of normal and chi^2 distributions have their known values", "[tail]") {
+    CHECK(normal_tail(1.959963984540054) == Approx(0.025).epsilon(1e-12));
+    CHECK(normal_tail(10) == Approx(7.619853024160527e-24).epsilon(1e-9));
+    CHECK(normal_quantile_of_tail(0.1) == Approx(1.2815515655446).epsilon(1e-10));
+    CHECK(chi2_tail(3.841458820694124, 1) == Approx(0.05).epsilon(1e-10));
+    // Even degrees of freedom have a finite sum.
+    CHECK(chi2_tail(7, 4) == Approx(std::exp(-3.5) * (1 + 3.5)).epsilon(1e-12));
+    CHECK(chi2_tail(200, 4) == Approx(std::exp(-100) * 101).epsilon(1e-10));
+    CHECK(chi2_tail(0, 3) == 1);
+}
+
+TEST_CASE("scores, chi^2 and amplitudes are those of the normal equations",
+          "[screening]") {
+    const toys::LinearTable table;
+    const Eigen::VectorXd y = table.draw(3, 5 * table.effects.col(2));
+    const ModeDiagnosis found = table.diagnose(y);
+    const Eigen::VectorXd r = table.project(table.white(y - table.base));
+    CHECK(found.adequacy.chi2 == Approx(r.squaredNorm()).epsilon(1e-6));
+    CHECK(found.adequacy.parameters == 3);
+    for (std::size_t k = 0; k < table.candidates.size(); ++k) {
+        const Eigen::VectorXd g =
+            table.white(table.effects.col(static_cast<Eigen::Index>(k)));
+        const Eigen::VectorXd pg = table.project(g);
+        const Screening& s = found.candidates[k].screening;
+        CHECK(s.identifiability == Approx(pg.norm() / g.norm()).epsilon(1e-6));
+        CHECK(s.score == Approx(pg.dot(r) / pg.norm()).margin(1e-4));
+        CHECK(s.amplitude == Approx(pg.dot(r) / pg.squaredNorm()).margin(1e-4));
+    }
+}
+
+TEST_CASE("the evidence of an effect is the conjugate one", "[evidence]") {
+    toys::LinearTable table;
+    const auto kind =
+        GENERATE(AmplitudePrior::Kind::normal, AmplitudePrior::Kind::half_normal,
+                 AmplitudePrior::Kind::uniform);
+    for (Candidate& c : table.candidates) {
+        c.prior = {kind, 3};
+        if (kind != AmplitudePrior::Kind::half_normal) c.lowest = -100;
+    }
+    const ModeDiagnosis found = table.diagnose(table.draw(4, 1.5 * table.effects.col(1)));
+    for (const CandidateRecord& record : found.candidates) {
+        REQUIRE(record.evidence);
+        const double a = record.screening.projected.norm(), z = record.screening.score;
+        const auto exact = [&](double scale) {
+            // The likelihood of the amplitude is N(z/a, 1/a^2), its peak exp(z^2/2).
+            const double s2 = scale * scale, v = 1 / (1 / s2 + a * a), m = v * a * z;
+            const auto within = [&](double low, double high) {
+                return normal_tail((low - z / a) * a) - normal_tail((high - z / a) * a);
+            };
+            switch (kind) {
+                case AmplitudePrior::Kind::normal:
+                    return 0.5 * (m * m / v + std::log(v / s2));
+                case AmplitudePrior::Kind::half_normal:
+                    return 0.5 * (m * m / v + std::log(v / s2)) +
+                           std::log(2 * normal_tail(-m / std::sqrt(v)));
+                default:
+                    return 0.5 * z * z + std::log(std::sqrt(2 * M_PI) / a) +
+                           std::log(within(-scale, scale) / (2 * scale));
+            }
+        };
+        CHECK(record.evidence->log_gain == Approx(exact(3)).margin(0.02));
+        CHECK(record.evidence->log_gain_half_width == Approx(exact(1.5)).margin(0.02));
+        CHECK(record.evidence->log_gain_double_width == Approx(exact(6)).margin(0.02));
+    }
+}
+
+TEST_CASE("the amplitude's posterior is the conjugate one", "[evidence]") {
+    toys::LinearTable table;
+    for (Candidate& c : table.candidates)
+        c.prior = {AmplitudePrior::Kind::half_normal, 3};
+    const ModeDiagnosis found = table.diagnose(table.draw(
+        4, table.amplitude_of(table.effects.col(1), 8) * table.effects.col(1)));
+    const EffectEvidence& e = *found.candidates[1].evidence;
+    const double a = found.candidates[1].screening.projected.norm();
+    const double v = 1 / (1.0 / 9 + a * a),
+                 m = v * a * found.candidates[1].screening.score;
+    CHECK(e.mean == Approx(m).epsilon(0.01));
+    CHECK(e.sd == Approx(std::sqrt(v)).epsilon(0.02));
+    CHECK(e.lower95 == Approx(m - 1.96 * std::sqrt(v)).epsilon(0.02));
+    CHECK(e.upper95 == Approx(m + 1.96 * std::sqrt(v)).epsilon(0.02));
+}
+
+TEST_CASE("leaving a shape out predicts it as the joint Gaussian says", "[leave_out]") {
+    const toys::LinearTable table;
+    const Eigen::VectorXd y = table.draw(8, table.no_shift());
+    const DiagnosisProblem problem = table.problem(y);
+    const Whitening whiten(table.covariance);
+    const Refit fit = refit(problem, whiten, {2}, Eigen::VectorXd::Constant(3, 0.5),
+                            Eigen::VectorXd::Ones(1));
+    const double score =
+        leave_out_score(problem, fit, table.covariance, groups_to_leave_out(problem));
+    // y ~ N(base, C + A A^T / 12 + g g^T), and p(y_a | y_b) = p(y) / p(y_b).
+    const Eigen::MatrixXd whole = table.covariance +
+                                  table.slope * table.slope.transpose() / 12 +
+                                  table.effects.col(2) * table.effects.col(2).transpose();
+    const Eigen::VectorXd x = y - table.base;
+    const Eigen::Index half = x.size() / 2;
+    const double exact = 2 * log_density(x, whole) -
+                         log_density(x.head(half), whole.topLeftCorner(half, half)) -
+                         log_density(x.tail(half), whole.bottomRightCorner(half, half));
+    CHECK(score == Approx(exact).margin(0.01));
+}
+
+TEST_CASE("the maximum of correlated statistics has its family-wise level", "[maximum]") {
+    const NormalTable numbers(3, 8);
+    // Independent: P(max |z| > c) = 1 - (1 - p)^4. Identical: p.
+    const MaximumTest independent(Eigen::MatrixXd::Identity(6, 4),
+                                  std::vector<Side>(4, Side::both), numbers);
+    const MaximumTest same(Eigen::MatrixXd::Ones(6, 4), std::vector<Side>(4, Side::both),
+                           numbers);
+    const MaximumTest one_sided(Eigen::MatrixXd::Ones(6, 1), {Side::positive}, numbers);
+    const double p = 2 * normal_tail(2);
+    CHECK(independent.probability(2) == Approx(1 - std::pow(1 - p, 4)).epsilon(0.04));
+    CHECK(same.probability(2) == Approx(p).epsilon(0.08));
+    CHECK(one_sided.probability(2) == Approx(p / 2).epsilon(0.1));
+    CHECK(one_sided.strength(0, -3) == -3);
+    // Far out the bound takes over from counting.
+    CHECK(independent.probability(7) == Approx(8 * normal_tail(7)).epsilon(1e-9));
+}
+
+TEST_CASE("a shot's deviation is studentised against the others", "[bad_data]") {
+    const toys::LinearTable table;
+    const Eigen::VectorXd y = table.draw(5, table.no_shift());
+    const ModeDiagnosis found = table.diagnose(y);
+    // Independent road: fit the others by generalised least squares and predict the shot.
+    const Eigen::Index n = y.size(), at = 12;
+    std::vector<Eigen::Index> shot{at, at + 1, at + 2}, others;
+    for (Eigen::Index i = 0; i < n; ++i)
+        if (i < at || i > at + 2) others.push_back(i);
+    const Eigen::MatrixXd c_oo = table.covariance(others, others);
+    const Eigen::MatrixXd a_o = table.slope(others, Eigen::all);
+    const Eigen::MatrixXd information = a_o.transpose() * c_oo.inverse() * a_o;
+    const Eigen::VectorXd x = y - table.base;
+    const Eigen::VectorXd fit =
+        information.inverse() * a_o.transpose() * c_oo.inverse() * x(others);
+    const Eigen::MatrixXd a_s = table.slope(shot, Eigen::all);
+    const Eigen::MatrixXd spread = Eigen::MatrixXd(table.covariance(shot, shot)) +
+                                   a_s * information.inverse() * a_s.transpose();
+    const Eigen::VectorXd gap = x(shot) - a_s * fit;
+    const double chi2 = gap.dot(spread.inverse() * gap);
+    for (const Suspect& suspect : found.suspects)
+        if (suspect.shot == 4 && suspect.size.empty())
+            CHECK(suspect.z ==
+                  Approx(std::max(0.0, normal_quantile_of_tail(chi2_tail(chi2, 3))))
+                      .margin(1e-3));
+}

@@ -1,0 +1,44 @@
+# Direct runs of the solver at the posterior maximum: is the network believed too much?
+rule confirmation_design:
+    input:
+        posterior="results/{study}/posterior.h5",
+        measurements=measurements_of,
+        settings="results/{study}/config/calibrate.json",
+    output:
+        "results/{study}/confirmation_design.h5",
+    log:
+        "results/{study}/logs/confirmation_design.log",
+    params:
+        seed=lambda wildcards: study_of(wildcards.study)["database"]["seed"],
+    script:
+        "../scripts/make_confirmation_design.py"
+
+
+rule confirmation_runs:
+    input:
+        program="build/bin/solver",
+        design="results/{study}/confirmation_design.h5",
+        settings="results/{study}/config/solver.json",
+    output:
+        "results/{study}/confirmation_runs.h5",
+    log:
+        "results/{study}/logs/confirmation_runs.log",
+    benchmark:
+        "results/{study}/benchmarks/confirmation_runs.tsv"
+    threads: workflow.cores
+    shell:
+        "{input.program} batch {input.design} --config {input.settings} --out {output}"
+        " --threads {threads} > {log} 2>&1"
+
+
+rule confirm:
+    input:
+        runs=with_scores("confirmation_runs"),
+        comparison="results/{study}/comparison.json",
+        measurements=fitted_table_of,
+    output:
+        "results/{study}/confirmation.json",
+    log:
+        "results/{study}/logs/confirm.log",
+    script:
+        "../scripts/make_confirmation.py"

@@ -1,0 +1,1 @@
+"""Measured and computed outlines r(z) as scores of a few principal components."""

@@ -1,0 +1,70 @@
+"""Loads what the diagnosis needs into one object for its page."""
+
+import json
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from input_errors import InputError
+
+
+@dataclass
+class DiagnosisResults:
+    """`ladder` and `confirmations` are empty before an effect was added."""
+
+    settings: dict
+    comparison: dict
+    diagnosis: dict
+    candidates: dict[str, dict]  # of candidates.json, by name
+    next_experiments: list[dict]
+    ladder: list[dict] = field(default_factory=list)  # revisions in the order of adding
+    confirmations: dict[str, dict] = field(default_factory=dict)  # by id of the revision
+
+    @property
+    def ranked(self) -> list[dict]:
+        """Candidates of the diagnosis with what candidates.json says of them, best first.
+
+        Those that the parameters can imitate, of which nothing is concluded, come last.
+        """
+        found = [
+            {**self.candidates.get(entry["name"], {}), **entry}
+            for entry in self.diagnosis["candidates"]
+        ]
+        return sorted(found, key=lambda entry: (entry["abstain"], -entry["log_evidence_gain"]))
+
+
+def load_diagnosis(
+    inputs: dict[str, Path], confirmations: dict[str, Path] | None = None
+) -> DiagnosisResults:
+    """`inputs`: settings, comparison, diagnosis, candidates, next_experiment, perhaps ladder.
+
+    `confirmations` holds the confirmation.json of revisions by their id.
+    """
+    ladder = []
+    if "ladder" in inputs:
+        ladder = read_json(inputs["ladder"], "taylorcal/ladder/1")["revisions"]
+    return DiagnosisResults(
+        settings=read_json(inputs["settings"]),
+        comparison=read_json(inputs["comparison"], "taylorcal/comparison/1"),
+        diagnosis=read_json(inputs["diagnosis"], "taylorcal/diagnosis/1"),
+        candidates={
+            entry["name"]: entry for entry in read_json(inputs["candidates"])["candidates"]
+        },
+        ladder=ladder,
+        confirmations={key: read_json(path) for key, path in (confirmations or {}).items()},
+        next_experiments=read_json(inputs["next_experiment"])["next_experiments"],
+    )
+
+
+def read_json(path: Path, schema: str | None = None) -> dict:
+    """InputError when the file is not JSON, or of another schema than this page draws."""
+    try:
+        content = json.loads(Path(path).read_text(encoding="utf-8"))
+    except json.JSONDecodeError as error:
+        problem = f"{path}, line {error.lineno}: {error.msg} (expected JSON)."
+        raise InputError(f"{problem} Delete the file and run again.") from error
+    if schema and content.get("schema") != schema:
+        raise InputError(
+            f"{path}: schema = {content.get('schema')!r} (expected {schema!r}). Delete the file "
+            "and run again with programs of this version."
+        )
+    return content

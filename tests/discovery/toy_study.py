@@ -7,6 +7,7 @@ import h5py
 import numpy as np
 from hidden_signal import NOISE
 from make_design import write_design
+from make_tables import DOUBLED
 from network import Network
 from signature_design import finer_design, signature_design
 from specimens import SHAPES
@@ -74,12 +75,17 @@ def network_document() -> dict:
         for size in NOISE
     ]
     covariance = {"outputs": list(NOISE), "matrix": (1e-7 * np.eye(len(NOISE))).tolist()}
+    layer = {"weights": weights.tolist(), "bias": offsets}
+    member = {"layers": [layer], "seed": 1, "batch_size": 1, "learning_rate": 0.0}
     return {
+        "schema": "taylorcal/emulator/1",
+        "activation": "silu",
+        "provenance": {},
         "inputs": inputs,
         "outputs": outputs,
         "category": {"name": "shape", "values": SHAPES},
         "best": 0,
-        "members": [{"layers": [{"weights": weights.tolist(), "bias": offsets}]}],
+        "members": [{**member, "validation_rms": 0.0}],
         "validation": {"covariance": {shape: covariance for shape in SHAPES}},
     }
 
@@ -92,8 +98,9 @@ def toy_sizes(network: Network, design: dict) -> np.ndarray:
         values = dict(zip(names, row, strict=True))
         sizes[index] = network.sizes(shape, {key: np.array(values[key]) for key in RANGES})
         speed = (values["velocity_m_s"] - 85) / 47
-        for number, candidate in enumerate(CANDIDATES):
-            random = np.random.default_rng([number, SHAPES.index(shape)])
+        for candidate in CANDIDATES:
+            name = DOUBLED.get(candidate["name"], candidate["name"])
+            random = np.random.default_rng([*name.encode(), SHAPES.index(shape)])
             pattern = random.normal(0, 1.0, size=(len(NOISE), 3)) @ [1, speed, speed**2]
             sizes[index] += values.get(candidate["name"], 0.0) * pattern
     return sizes
@@ -107,6 +114,8 @@ def write_runs(path: Path, design: dict, sizes: np.ndarray) -> None:
         file.attrs["schema"] = "taylorcal/database/1"
         file.create_dataset("outputs", data=sizes, track_times=False)
         file["outputs"].attrs.create("names", list(NOISE), dtype=text)
+        file.create_dataset("descriptors", data=sizes[:, :1], track_times=False)
+        file["descriptors"].attrs.create("names", ["stop_time_us"], dtype=text)
         file.create_dataset("status", data=np.zeros(len(sizes), dtype=np.int64), track_times=False)
 
 

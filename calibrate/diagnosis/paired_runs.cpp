@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 
@@ -52,21 +53,25 @@ class RunTable {
                             path_.string(), name));
         return *at;
     }
-    Eigen::Index output(const std::string& name) const {
+    /// Nothing for a size that the runs do not give.
+    std::optional<Eigen::Index> output(const std::string& name) const {
         const auto at = std::find(output_names_.begin(), output_names_.end(), name);
-        require(
-            at != output_names_.end(),
-            fmt::format("{}: it has no output {}. Make the file again with the present "
-                        "solver, or remove the size from fit_sizes.",
-                        path_.string(), name));
+        if (at == output_names_.end()) return std::nullopt;
         return at - output_names_.begin();
     }
     double value(std::size_t row, Eigen::Index column) const {
         return inputs_(static_cast<Eigen::Index>(row), column);
     }
-    Eigen::VectorXd sizes(std::size_t row,
-                          const std::vector<Eigen::Index>& columns) const {
-        return outputs_.row(static_cast<Eigen::Index>(row))(columns).transpose();
+    /// NaN for a size that the runs do not give.
+    Eigen::VectorXd sizes(std::size_t row, const std::vector<std::string>& names) const {
+        Eigen::VectorXd values =
+            Eigen::VectorXd::Constant(static_cast<Eigen::Index>(names.size()),
+                                      std::numeric_limits<double>::quiet_NaN());
+        for (std::size_t c = 0; c < names.size(); ++c)
+            if (const auto at = output(names[c]))
+                values(static_cast<Eigen::Index>(c)) =
+                    outputs_(static_cast<Eigen::Index>(row), *at);
+        return values;
     }
     std::size_t rows() const { return shape.size(); }
     std::string where(std::size_t row) const {
@@ -114,8 +119,7 @@ std::string pair_key(const RunTable& table, std::size_t row,
     return key;
 }
 
-BaseRun read_base(const RunTable& table, std::size_t row, const Settings& settings,
-                  const std::vector<Eigen::Index>& outputs) {
+BaseRun read_base(const RunTable& table, std::size_t row, const Settings& settings) {
     BaseRun run;
     run.run_id = table.run_id[row];
     run.shot.id = fmt::format("run {}", run.run_id);
@@ -130,7 +134,7 @@ BaseRun read_base(const RunTable& table, std::size_t row, const Settings& settin
     for (std::size_t j = 0; j < settings.parameters.size(); ++j)
         run.parameters(static_cast<Eigen::Index>(j)) =
             table.value(row, table.input(settings.parameters[j].name));
-    run.sizes_mm = table.sizes(row, outputs);
+    run.sizes_mm = table.sizes(row, settings.fit_sizes);
     run.descriptors = table.descriptors.row(static_cast<Eigen::Index>(row)).transpose();
     return run;
 }
@@ -147,9 +151,6 @@ std::vector<std::size_t> PairedRuns::bases_of(const std::string& shape) const {
 PairedRuns read_paired_runs(const std::filesystem::path& path, const Settings& settings,
                             const std::vector<Candidate>& candidates) {
     const RunTable table(path);
-    std::vector<Eigen::Index> outputs;
-    for (const std::string& size : settings.fit_sizes)
-        outputs.push_back(table.output(size));
     PairedRuns runs;
     runs.descriptor_names = table.descriptor_names;
     std::vector<std::optional<Eigen::Index>> columns;
@@ -170,7 +171,7 @@ PairedRuns read_paired_runs(const std::filesystem::path& path, const Settings& s
             continue;
         }
         base = runs.bases.size();
-        runs.bases.push_back(read_base(table, row, settings, outputs));
+        runs.bases.push_back(read_base(table, row, settings));
     }
     for (const std::size_t row : with_effect) {
         const std::size_t k = *changed_candidate(table, row, candidates, columns);
@@ -185,7 +186,7 @@ PairedRuns read_paired_runs(const std::filesystem::path& path, const Settings& s
         }
         runs.effects.push_back(
             {*base->second, k, table.value(row, *columns[k]) - candidates[k].base,
-             table.sizes(row, outputs) - runs.bases[*base->second].sizes_mm});
+             table.sizes(row, settings.fit_sizes) - runs.bases[*base->second].sizes_mm});
     }
     return runs;
 }

@@ -55,7 +55,6 @@ struct LinearTable final : DiagnosisModel {
         for (int k = 0; k < candidate_count; ++k) {
             Candidate c;
             c.name = fmt::format("effect_{}", k);
-            c.unit = "1";
             c.lowest = 0;
             c.highest = 100;
             candidates.push_back(c);

@@ -1,6 +1,7 @@
-"""Writes the lists of candidates that diagnoses get, each with the signatures that belong to it.
+"""Writes a list of candidates as diagnoses get it, with the signatures that belong to it.
 
-/usr/bin/python3 tests/discovery/candidate_lists.py --study tests/discovery/study --out lists
+/usr/bin/python3 tests/discovery/candidate_lists.py --study tests/discovery/study --list list1 \\
+    --signatures signatures.h5 --finer signatures_finer.h5 --out lists/list1/metal3
 
 A list lacks one effect, or has constants that double some: rows of other candidates are left
 out of its signatures, so that nothing in its folder tells of them.
@@ -13,8 +14,9 @@ from pathlib import Path
 
 import h5py
 import numpy as np
-from make_tables import hideable, is_listed, twins_of
-from plan import list_names, plan
+from hide import read_candidates
+from make_tables import is_listed, plan_of
+from plan import list_names
 
 
 def kept_rows(inputs: np.ndarray, names: list[str], dropped: list[dict]) -> np.ndarray:
@@ -51,19 +53,18 @@ def write_candidates(path: Path, listed: list[dict]) -> None:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--study", type=Path, required=True)
-    parser.add_argument("--out", type=Path, required=True)
+    for name in ("study", "signatures", "finer", "out"):
+        parser.add_argument(f"--{name}", type=Path, required=True)
+    parser.add_argument("--list", required=True)
     options = parser.parse_args()
-    candidates = json.loads((options.study / "candidates.json").read_text())["candidates"]
-    tables = plan(hideable(candidates), twins_of(candidates))
-    for which, name in list_names(tables).items():
-        folder = options.out / name
-        folder.mkdir(parents=True, exist_ok=True)
-        listed = [item for item in candidates if is_listed(item["name"], which)]
-        dropped = [item for item in candidates if item not in listed]
-        write_candidates(folder / "candidates.json", listed)
-        for part in ("signatures.h5", "signatures_finer.h5"):
-            write_part(options.study / part, folder / part, dropped)
+    candidates = read_candidates(options.study)
+    which = {name: key for key, name in list_names(plan_of(candidates)).items()}[options.list]
+    listed = [item for item in candidates if is_listed(item["name"], which)]
+    dropped = [item for item in candidates if item not in listed]
+    options.out.mkdir(parents=True, exist_ok=True)
+    write_candidates(options.out / "candidates.json", listed)
+    write_part(options.signatures, options.out / "signatures.h5", dropped)
+    write_part(options.finer, options.out / "signatures_finer.h5", dropped)
 
 
 if __name__ == "__main__":

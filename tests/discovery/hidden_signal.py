@@ -20,19 +20,25 @@ SPECIMEN = {
 }
 
 
-class TrueTable:
-    """The table of a set of shots as it is without noise, whitened at the truth."""
+class SignalTable:
+    """A table whitened at some parameters; signals are what those cannot absorb."""
 
-    def __init__(self, network, shots: ShotSet):
+    def __init__(self, network, shots: Shots, parameters: dict):
+        theta = np.array(list(parameters.values()))
+        self.model, self.theta = PlainModel(network, shots, list(parameters)), theta
+        self.roots = whiteners(self.model, theta)
+        self.sensitivity = sensitivities(self.model, theta, self.roots)
+
+    @classmethod
+    def of_set(cls, network, shots: ShotSet) -> "SignalTable":
+        """The table of a set of shots as it is without noise, at the truth."""
         velocities = shots.velocities
         sd = np.ones((len(shots.shapes), len(NOISE)))
         table = Shots(shots.shapes, velocities, VELOCITY_NOISE * velocities, sd, SPECIMEN)
         model = PlainModel(network, table, list(shots.parameters))
-        theta = np.array(list(shots.parameters.values()))
-        sd *= model.sizes(theta) * np.array(list(NOISE.values()))
-        self.model, self.theta = model, theta
-        self.roots = whiteners(model, theta)
-        self.sensitivity = sensitivities(model, theta, self.roots)
+        sizes = model.sizes(np.array(list(shots.parameters.values())))
+        sd *= sizes * np.array(list(NOISE.values()))
+        return cls(network, table, shots.parameters)
 
     def signal(self, change: np.ndarray) -> np.ndarray:
         """P L^-1 of a change of the sizes [mm], a row a shot."""
@@ -64,7 +70,7 @@ class TrueTable:
         return found
 
 
-def visible_amplitude(table: TrueTable, signatures, candidate: dict, sigmas: float) -> float:
+def visible_amplitude(table: SignalTable, signatures, candidate: dict, sigmas: float) -> float:
     """Amplitude whose signal is `sigmas` standard errors; the range may allow less."""
     unit = np.linalg.norm(table.signal(table.changes(signatures, candidate["name"])))
     return float(sigmas / unit) if unit > 0 else float("inf")

@@ -1,7 +1,7 @@
 """Writes blind tables, and what each hides in a sealed folder of its own.
 
 /usr/bin/python3 tests/discovery/make_tables.py --study tests/discovery/study \\
-    --runs sealed/runs --tables tables --sealed sealed/tables t001 t002
+    --runs sealed/runs --signatures signatures --tables tables --sealed sealed/tables t001 t002
 """
 
 import argparse
@@ -12,10 +12,10 @@ from pathlib import Path
 import h5py
 import numpy as np
 from corruption import corrupted
-from hidden_signal import NOISE, VELOCITY_NOISE, TrueTable
-from hide import read_signatures
+from hidden_signal import NOISE, VELOCITY_NOISE, SignalTable
+from hide import read_candidates, read_signatures
 from network import Network
-from plan import ALL, SEED, TWINS, Table, Variant, plan
+from plan import ALL, SEED, TWINS, Table, Variant, metal_name, plan
 from specimens import DIAMETER_MM, LENGTH_MM, TEMPERATURE_K, ShotSet, shot_set
 
 HELD_BACK = 5  # one shot in so many
@@ -33,6 +33,11 @@ def twins_of(candidates: list[dict]) -> list[str]:
     """Effects that a constant of the same meaning doubles."""
     names = [item["name"] for item in candidates]
     return [effect for constant, effect in DOUBLED.items() if constant in names]
+
+
+def plan_of(candidates: list[dict]) -> list[Table]:
+    """All tables, for a study's candidates."""
+    return plan(hideable(candidates), twins_of(candidates))
 
 
 def read_runs(path: Path) -> tuple[np.ndarray, np.ndarray, dict]:
@@ -79,16 +84,18 @@ def write_table(path: Path, rows: list[dict]) -> None:
 
 
 class Generator:
-    """Makes tables of variants whose runs are in `runs`/<variant>.h5."""
+    """Makes tables of variants whose runs are in `runs`/<variant>.h5.
 
-    def __init__(self, study: Path, runs: Path):
+    Those with an effect need `signatures`/<metal>/signatures.h5, to say how visible it is.
+    """
+
+    def __init__(self, study: Path, runs: Path, signatures: Path):
         self._network = Network.from_file(study / "emulator.json")
-        self._runs = runs
-        parameters = list(shot_set(0, SEED).parameters)
-        self.candidates, self._signatures = read_signatures(study, self._network, parameters)
+        self._runs, self._signatures = runs, signatures
+        self.candidates = read_candidates(study)
 
     def tables(self) -> list[Table]:
-        return plan(hideable(self.candidates), twins_of(self.candidates))
+        return plan_of(self.candidates)
 
     def make(self, table: Table) -> tuple[list[dict], dict]:
         """The rows of the table, and the truth."""
@@ -118,19 +125,21 @@ class Generator:
     def _visibility(self, table: Table, shots: ShotSet, sizes, stopped) -> dict:
         """Signal of what is hidden, from the runs; identifiability and likeness by signatures."""
         plain = Variant(table.variant.shot_set)
-        if table.variant == plain:
+        if not table.variant.effects and not table.variant.material:
             return {"signal_sd": 0.0, "identifiability": {}, "most_alike": {}}
-        true = TrueTable(self._network, shots)
+        true = SignalTable.of_set(self._network, shots)
+        pairs = self._signatures / metal_name(shots.index) / "signatures.h5"
+        signatures = read_signatures(pairs, self.candidates, self._network)
         without, stopped_without, _ = read_runs(self._runs / f"{plain.name}.h5")
         change = np.where((stopped & stopped_without)[:, None], sizes - without, 0.0)
         known = [c["name"] for c in self.candidates if self._is_listed(c, table.candidates)]
         return {
             "signal_sd": float(np.linalg.norm(true.signal(change))),
             "identifiability": {
-                name: true.identifiability(self._signatures, name) for name in table.variant.effects
+                name: true.identifiability(signatures, name) for name in table.variant.effects
             },
             "most_alike": {
-                name: true.likeness(self._signatures, name, [n for n in known if n != name])
+                name: true.likeness(signatures, name, [n for n in known if n != name])
                 for name in table.variant.effects
             },
         }
@@ -149,11 +158,11 @@ def is_listed(name: str, which: str) -> bool:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    for name in ("study", "runs", "tables", "sealed"):
+    for name in ("study", "runs", "signatures", "tables", "sealed"):
         parser.add_argument(f"--{name}", type=Path, required=True)
     parser.add_argument("ids", nargs="+")
     options = parser.parse_args()
-    generator = Generator(options.study, options.runs)
+    generator = Generator(options.study, options.runs, options.signatures)
     options.sealed.mkdir(parents=True, exist_ok=True)
     for table in generator.tables():
         if table.id not in options.ids:

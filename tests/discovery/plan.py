@@ -9,8 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 
 SEED = 20230816
-SETS = 8
-NULLS_A_SET = 13
+SETS = 6
+NULLS_A_SET = 18
 CORRUPTED = 12
 BIASED = 6
 NOISES = 3  # tables of a variant with something hidden
@@ -103,6 +103,11 @@ def plan(effects: list[str], twins: list[str]) -> list[Table]:
         for noise, (place, case) in enumerate(zip(order, cases, strict=True))
     ]
     return sorted(tables, key=lambda table: table.id)
+
+
+def metal_name(shot_set: int) -> str:
+    """Name of the folder of a set's signatures."""
+    return f"metal{shot_set}"
 
 
 def list_names(tables: list[Table]) -> dict[str, str]:

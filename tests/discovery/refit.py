@@ -1,7 +1,7 @@
 """Adds the effect that a diagnosis names, fits again, and looks at the shots held back.
 
 /usr/bin/python3 tests/discovery/refit.py --study tests/discovery/study --tables tables \\
-    --out refits.json t001 t002
+    --out refits.json t001=signatures.h5
 
 Reads nothing that is sealed. Fits by least squares on the whitened residuals, independent of
 the C++ code: network alone, then network and the effect's signature.
@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 from error_model import PlainModel, Shots, sensitivities, whiten, whiteners
 from hidden_signal import NOISE, SPECIMEN
-from hide import read_signatures
+from hide import read_candidates, read_signatures
 from network import Network
 from scipy.optimize import least_squares
 from specimens import TRUTHS
@@ -135,17 +135,18 @@ def main() -> None:
     parser.add_argument("--study", type=Path, required=True)
     parser.add_argument("--tables", type=Path, required=True)
     parser.add_argument("--out", type=Path, required=True)
-    parser.add_argument("ids", nargs="+")
+    parser.add_argument("ids", nargs="+", help="table=file of its metal's paired runs")
     options = parser.parse_args()
     network = Network.from_file(options.study / "emulator.json")
-    candidates, signatures = read_signatures(options.study, network, list(TRUTHS))
+    candidates = read_candidates(options.study)
     by_name = {item["name"]: item for item in candidates}
     reports = {}
-    for name in options.ids:
+    for name, pairs in (pair.split("=") for pair in options.ids):
         folder = options.tables / name
         effect = named_effect(json.loads((folder / "diagnosis.json").read_text()))
         if effect is not None:
             table = folder / "measurements.csv"
+            signatures = read_signatures(Path(pairs), candidates, network)
             reports[name] = added(network, signatures, by_name[effect], table)
     options.out.write_text(json.dumps(reports, indent=1) + "\n")
 

@@ -1,7 +1,10 @@
-"""Writes the designs of the signatures' runs: pairs that differ in one candidate alone.
+"""Writes the design of pairs of runs over the study's ranges that differ in one candidate.
 
 /usr/bin/python3 tests/discovery/signature_design.py --study tests/discovery/study/study.yaml \\
-    --candidates candidates.json --out signature_design.h5 --finer finer_design.h5
+    --candidates candidates.json --out design.h5
+
+They tell how large an amplitude of a pair may be; the signatures that diagnoses read are made
+for each metal, by set_signatures.py.
 """
 
 import argparse
@@ -13,7 +16,6 @@ from make_design import design, write_design
 from study import design_settings, read_study
 
 POINTS_A_SHAPE = 12
-FINER_A_SHAPE = 6  # of these, again at the next fidelity
 SEED_SHIFT = 1000  # other points and grains than the database's
 
 
@@ -36,25 +38,14 @@ def signature_design(study: dict, candidates: list[dict]) -> dict:
     }
 
 
-def finer_design(signatures: dict, candidates: int, shapes: int) -> dict:
-    """The plain runs of the first points again, with the ids that they have among the pairs."""
-    rows = np.arange(FINER_A_SHAPE * shapes) * (candidates + 1)
-    chosen = {key: signatures[key][rows] for key in ("run_id", "seed", "inputs")}
-    shape = [signatures["shape"][row] for row in rows]
-    return {**chosen, "shape": shape, "names": signatures["names"]}
-
-
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    for name in ("study", "candidates", "out", "finer"):
+    for name in ("study", "candidates", "out"):
         parser.add_argument(f"--{name}", type=Path, required=True)
     options = parser.parse_args()
     study = read_study(options.study)
     candidates = json.loads(options.candidates.read_text())["candidates"]
-    signatures = signature_design(study, candidates)
-    write_design(options.out, signatures)
-    shapes = len(study["database"]["shapes"])
-    write_design(options.finer, finer_design(signatures, len(candidates), shapes))
+    write_design(options.out, signature_design(study, candidates))
 
 
 if __name__ == "__main__":

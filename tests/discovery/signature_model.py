@@ -1,6 +1,6 @@
 """What each candidate changes in the sizes of a shot, smooth in velocity and parameters.
 
-From the study's paired runs (same specimen and grains, one candidate changed): for each shape,
+From paired runs (same specimen and grains, one candidate changed): for each shape,
 candidate and size a small regression of the change for a unit of amplitude.
 """
 
@@ -27,10 +27,10 @@ class SignatureModel:
         return self._features(np.atleast_2d(columns)) @ self._fits[shape, candidate]
 
     def _features(self, columns: np.ndarray) -> np.ndarray:
-        """1, v, v^2, the parameters and their products with v; ranges scaled to about -1..1."""
+        """1, v, v^2 and the parameters, all scaled to about -1..1."""
         scaled = (_shown(columns, self._parameters) - self._centre) / self._width
         speed = scaled[:, :1]
-        return np.hstack([np.ones_like(speed), scaled, speed**2, speed * scaled[:, 1:]])
+        return np.hstack([np.ones_like(speed), scaled, speed**2])
 
     def _fit(self, columns: np.ndarray, changes: np.ndarray) -> np.ndarray:
         features = self._features(columns)

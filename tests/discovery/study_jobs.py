@@ -11,9 +11,5 @@ def design_of(wildcards) -> str:
     return f"{HOME}/{part}design.h5"
 
 
-def settings_of(wildcards) -> str:
-    return f"{HOME}/{'finer' if wildcards.part == 'signatures_finer' else 'solver'}.json"
-
-
 def rows_of(wildcards) -> str:
     return DATABASE_ROWS if wildcards.part == "database" else ":"

@@ -12,7 +12,7 @@ from corruption import corrupted, swapped_digits
 from hidden_signal import NOISE, VELOCITY_NOISE
 from make_tables import Generator, write_table
 from measurements import read_measurements
-from plan import ALL, SEED, SIX_SIGMA, list_names, plan
+from plan import ALL, NULLS_A_SET, SEED, SETS, SIX_SIGMA, list_names, plan
 from specimens import shot_set
 from toy_study import CANDIDATES, EFFECTS
 
@@ -30,7 +30,7 @@ def of_kind(made, kind):
 
 
 def test_the_same_seed_gives_the_same_tables(toy, made, tmp_path):
-    again = Generator(toy.study, toy.runs)
+    again = Generator(toy.study, toy.runs, toy.signatures)
     for place, (table, rows, truth) in enumerate(made[::40]):
         rows_again, truth_again = again.make(table)
         write_table(tmp_path / "a" / f"{place}.csv", rows)
@@ -89,7 +89,7 @@ def test_the_noise_has_the_stated_spread(made):
                 true.setdefault((table.variant, index, size), []).append(float(row[size]))
     for (_, _, size), values in true.items():
         shown[size].extend((np.array(values) / np.mean(values) - 1) / NOISE[size])
-    repeats = 13  # tables of a set, whose mean stands for the true value
+    repeats = NULLS_A_SET  # tables of a set, whose mean stands for the true value
     for size, values in shown.items():
         spread = np.std(values) * (
             1 if size == "velocity_m_s" else (repeats / (repeats - 1)) ** 0.5
@@ -125,7 +125,7 @@ def test_a_plain_table_hides_nothing(made):
 
 
 def test_truths_lie_inside_the_ranges_and_differ(toy):
-    sets = [shot_set(index, SEED) for index in range(8)]
+    sets = [shot_set(index, SEED) for index in range(SETS)]
     densities = [shots.parameters["rho_immobile_initial"] for shots in sets]
     assert len(set(densities)) == len(sets)
     for shots in sets:
@@ -168,21 +168,23 @@ def test_the_commands_write_tables_lists_and_sealed_truths(toy, tmp_path):
     """As the workflow calls them."""
     environment = {"PYTHONPATH": str(HERE.parents[1] / "workflow" / "scripts")}
     tables, sealed, lists = (tmp_path / name for name in ("tables", "sealed", "lists"))
-    arguments = ["--study", toy.study, "--runs", toy.runs, "--tables", tables, "--sealed", sealed]
+    folders = ["--runs", toy.runs, "--signatures", toy.signatures, "--tables", tables]
     ids = [table.id for table in toy.generator.tables()][:20]
-    for script, options in (
-        ("make_tables.py", [*arguments, *ids]),
-        ("candidate_lists.py", ["--study", toy.study, "--out", lists]),
-    ):
-        command = [sys.executable, HERE / script, *options]
+    commands = [["make_tables.py", *folders, "--sealed", sealed, *ids]]
+    pairs = ["--signatures", toy.study / "signatures.h5"]
+    pairs += ["--finer", toy.study / "signatures_finer.h5"]
+    names = list_names(toy.generator.tables())
+    for name in names.values():
+        commands.append(["candidate_lists.py", *pairs, "--list", name, "--out", lists / name])
+    for script, *options in commands:
+        command = [sys.executable, HERE / script, "--study", toy.study, *options]
         subprocess.run(command, check=True, env=environment)
     assert [path.parent.name for path in sorted(tables.glob("*/measurements.csv"))] == ids
     assert [path.stem for path in sorted(sealed.glob("*.json"))] == ids
     texts = [path.read_text() for path in tables.rglob("*") if path.is_file()]
     assert not any(effect in text for text in texts for effect in EFFECTS)
-    for folder in lists.iterdir():
-        names = (folder / "candidates.json").read_text()
-        absent = [effect for effect in EFFECTS if f'"{effect}"' not in names]
-        assert not any(
-            effect.encode() in (folder / "signatures.h5").read_bytes() for effect in absent
-        )
+    for which, name in names.items():
+        effect = which.removeprefix("without ")
+        if effect in EFFECTS:
+            assert f'"{effect}"' not in (lists / name / "candidates.json").read_text()
+            assert effect.encode() not in (lists / name / "signatures.h5").read_bytes()

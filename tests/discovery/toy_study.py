@@ -9,8 +9,10 @@ from hidden_signal import NOISE
 from make_design import write_design
 from make_tables import DOUBLED
 from network import Network
-from signature_design import finer_design, signature_design
+from make_signature_design import base_rows
+from signature_design import signature_design
 from specimens import SHAPES
+from study import read_study
 
 RANGES = {
     "velocity_m_s": (38.0, 132.0),
@@ -37,18 +39,7 @@ CANDIDATES = [
     }
     for name in [*EFFECTS, "velocity_bias", "drag_slope"]
 ]
-STUDY = {
-    "database": {"runs": 30, "seed": 1, "shapes": SHAPES}
-    | {name: list(RANGES[name]) for name in list(RANGES)[:4]},
-    "parameters": {
-        name: {
-            "lower": RANGES[name][0],
-            "upper": RANGES[name][1],
-            "prior": "log_uniform" if name.startswith("rho_") else "uniform",
-        }
-        for name in list(RANGES)[4:]
-    },
-}
+STUDY = read_study(Path(__file__).parent / "study" / "study.yaml")  # of the same ranges
 
 
 def network_document() -> dict:
@@ -128,6 +119,6 @@ def write_study(folder: Path) -> Path:
     network = Network(document)
     pairs = signature_design(STUDY, CANDIDATES)
     write_runs(folder / "signatures.h5", pairs, toy_sizes(network, pairs))
-    finer = finer_design(pairs, len(CANDIDATES), len(SHAPES))
+    finer = base_rows(pairs, len(CANDIDATES))
     write_runs(folder / "signatures_finer.h5", finer, toy_sizes(network, finer))
     return folder

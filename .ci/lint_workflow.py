@@ -12,6 +12,7 @@ WAIVED = "Specify a conda environment or container for each rule."
 
 
 SNAKEFILES = ["Snakefile", "tests/verification/Snakefile"]
+SNAKEFILES += ["tests/discovery/Snakefile", "tests/discovery/study/Snakefile"]
 
 
 def lint(snakefile: str) -> int:

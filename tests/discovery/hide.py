@@ -1,0 +1,79 @@
+"""Writes design.h5 and solver.json of a variant: its shots, with something hidden.
+
+/usr/bin/python3 tests/discovery/hide.py --study tests/discovery/study --set 3 \\
+    --signatures signatures.h5 --effects anvil_friction --strength six_sigma \\
+    --design design.h5 --settings solver.json
+"""
+
+import argparse
+import json
+from pathlib import Path
+
+import numpy as np
+from hidden_signal import SignalTable, drawn_amplitude, visible_amplitude
+from make_design import write_design
+from network import Network
+from plan import FROM_PRIOR, OTHER_METALS, SEED, SIX_SIGMA, STRONG, Variant
+from signature_model import SignatureModel, read_pairs
+from specimens import TRUTHS, design_of, shot_set
+
+SIGMAS = {SIX_SIGMA: 7.0, STRONG: 15.0}
+WITHIN = 0.95  # share of an effect's range that is used
+
+
+def read_candidates(study: Path) -> list[dict]:
+    return json.loads((study / "candidates.json").read_text())["candidates"]
+
+
+def read_signatures(path: Path, candidates: list[dict], network: Network) -> SignatureModel:
+    """Signatures of all candidates from the paired runs in `path`."""
+    pairs = read_pairs(path, candidates, list(TRUTHS), network.outputs)
+    return SignatureModel(pairs, list(TRUTHS))
+
+
+def amplitudes(variant: Variant, study: Path, pairs: Path) -> dict[str, float]:
+    """Amplitude of each hidden effect; the same for the same seed. `pairs`: the set's."""
+    network, candidates = Network.from_file(study / "emulator.json"), read_candidates(study)
+    table = SignalTable.of_set(network, shot_set(variant.shot_set, SEED))
+    signatures = read_signatures(pairs, candidates, network)
+    by_name = {item["name"]: item for item in candidates}
+    random = np.random.default_rng([SEED, 4, *variant.name.encode()])
+    found = {}
+    for name in variant.effects:
+        candidate = by_name[name]
+        sign = random.choice([-1, 1]) if candidate["signed"] else 1
+        if variant.strength == FROM_PRIOR:
+            size = drawn_amplitude(candidate, random)
+        else:
+            size = visible_amplitude(table, signatures, candidate, SIGMAS[variant.strength])
+        limits = WITHIN * candidate["lowest"], WITHIN * candidate["highest"]
+        found[name] = float(np.clip(sign * size, *limits))
+    return found
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--study", type=Path, required=True)
+    parser.add_argument("--signatures", type=Path, help="paired runs of the set")
+    parser.add_argument("--set", type=int, required=True)
+    parser.add_argument("--effects", nargs="*", default=[])
+    parser.add_argument("--strength", choices=[*SIGMAS, FROM_PRIOR, ""], default="")
+    parser.add_argument("--material", choices=[*OTHER_METALS, ""], default="")
+    parser.add_argument("--design", type=Path, required=True)
+    parser.add_argument("--settings", type=Path, required=True)
+    options = parser.parse_args()
+    variant = Variant(options.set, tuple(options.effects), options.strength, options.material)
+    shots = shot_set(variant.shot_set, SEED)
+    hidden = amplitudes(variant, options.study, options.signatures) if variant.effects else {}
+    write_design(options.design, design_of(shots, hidden))
+    settings = {
+        "geometry": "axisymmetric",
+        "fidelity": "standard",  # its bound on work; the resolution is the set's own
+        "numerics": shots.numerics,
+        "material": OTHER_METALS.get(variant.material, {}),
+    }
+    options.settings.write_text(json.dumps(settings, indent=1) + "\n")
+
+
+if __name__ == "__main__":
+    main()

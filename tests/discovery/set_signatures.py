@@ -1,0 +1,89 @@
+"""Writes the designs of the signatures that tables of one set of shots are diagnosed with.
+
+/usr/bin/python3 tests/discovery/set_signatures.py --study tests/discovery/study \\
+    --measurements t001/measurements.csv --posterior t001/posterior.h5 \\
+    --design design.h5 --finer finer.h5
+
+As the product does for a study of its own: velocities over the range of the table, parameters
+drawn from its posterior. Nothing here knows the truth. One table stands for all of its set,
+since 400 runs for each table would take days.
+"""
+
+import argparse
+from pathlib import Path
+
+import numpy as np
+from hidden_signal import SignalTable, visible_amplitude
+from hide import read_candidates, read_signatures
+from make_design import write_design
+from make_signature_design import SHOT_INPUTS, base_rows, points, read_draws
+from measurements import read_measurements
+from network import Network
+from refit import read_table
+from specimens import TRUTHS
+
+POINTS_A_SHAPE = 9
+FINER_STEP = 2  # every other point is computed at the next finer fidelity too
+SEED = 77
+# Amplitudes of the pairs: this many standard errors, or the usual one where that is less. What
+# is hidden lies in their range; far beyond it sizes are no longer linear in the amplitude.
+SIGMAS = 12
+SHARES = (0.5, 1.0)  # in turn, so that a curvature shows
+
+
+def pair_amplitudes(candidates, table: SignalTable, signatures) -> list[float]:
+    """One a candidate, with the sign of its usual one."""
+    found = []
+    for candidate in candidates:
+        visible = visible_amplitude(table, signatures, candidate, SIGMAS)
+        usual = candidate["typical"]
+        found.append(float(np.sign(usual) * min(abs(usual), visible)))
+    return found
+
+
+def pair_design(rows: list[dict], draws: dict, candidates, amplitudes: list[float]) -> dict:
+    """For each point a plain run and one run a candidate, of the same seed."""
+    places = points(rows, POINTS_A_SHAPE)
+    random = np.random.default_rng(SEED)
+    seeds = random.integers(1, 2**31, size=len(places))
+    chosen = random.choice(len(draws[next(iter(TRUTHS))]), size=len(places), replace=False)
+    base = np.array([candidate["base"] for candidate in candidates])
+    changes = np.vstack([np.zeros_like(base), np.diag(amplitudes)])
+    inputs = []
+    for index, place in enumerate(places):
+        shot = [place[name] for name in SHOT_INPUTS]
+        shot += [float(draws[name][chosen[index]]) for name in TRUTHS]
+        share = SHARES[index % len(SHARES)]
+        inputs += [[*shot, *(base + share * change)] for change in changes]
+    repeats = len(changes)
+    return {
+        "run_id": np.arange(len(inputs), dtype=np.int64),
+        "seed": np.repeat(seeds, repeats).astype(np.int64),
+        "shape": [place["shape"] for place in places for _ in range(repeats)],
+        "inputs": np.array(inputs),
+        "names": [*SHOT_INPUTS, *TRUTHS, *(candidate["name"] for candidate in candidates)],
+    }
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    for name in ("study", "measurements", "posterior", "design", "finer"):
+        parser.add_argument(f"--{name}", type=Path, required=True)
+    options = parser.parse_args()
+    network = Network.from_file(options.study / "emulator.json")
+    candidates = read_candidates(options.study)
+    draws = read_draws(options.posterior)
+    middle = {name: float(np.median(draws[name])) for name in TRUTHS}
+    table = SignalTable(network, read_table(options.measurements)[0], middle)
+    signatures = read_signatures(options.study / "signatures.h5", candidates, network)
+    amplitudes = pair_amplitudes(candidates, table, signatures)
+    rows = read_measurements(options.measurements)
+    pairs = pair_design(rows, draws, candidates, amplitudes)
+    write_design(options.design, pairs)
+    plain = base_rows(pairs, len(candidates))
+    every_other = {key: values[::FINER_STEP] for key, values in plain.items() if key != "names"}
+    write_design(options.finer, {**every_other, "names": plain["names"]})
+
+
+if __name__ == "__main__":
+    main()

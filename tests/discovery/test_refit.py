@@ -1,0 +1,83 @@
+"""Adding an effect: the network in numpy, the signatures, and the refit, in closed form."""
+
+import numpy as np
+import pytest
+from hide import read_signatures
+from judge import Case, left_out_falls, moves_toward_truth
+from make_tables import write_table
+from refit import added, named_effect
+from specimens import SHAPES
+from toy_study import CANDIDATES, RANGES
+
+
+def middle():
+    return {name: np.array((low * high) ** 0.5) for name, (low, high) in RANGES.items()}
+
+
+@pytest.fixture(scope="module")
+def signatures(toy):
+    return read_signatures(toy.study / "signatures.h5", CANDIDATES, toy.network)
+
+
+def test_signatures_give_the_change_of_a_unit(toy, signatures):
+    """The toy's change is a quadratic in v: between the pairs' velocities as well."""
+    from toy_study import toy_sizes
+
+    point = {name: float(value) for name, value in middle().items()}
+    for shape in SHAPES:
+        base = {"shape": [shape], "names": [*point], "inputs": np.array([[*point.values()]])}
+        plain = toy_sizes(toy.network, base)
+        names, row = [*point, "anvil_friction"], [[*point.values(), 1.0]]
+        changed = toy_sizes(toy.network, {**base, "names": names, "inputs": np.array(row)})
+        found = signatures.change(shape, "anvil_friction", point)
+        assert found == pytest.approx(changed - plain, abs=0.02 * np.abs(changed - plain).max())
+
+
+@pytest.fixture(scope="module")
+def fits(toy, signatures, tmp_path_factory):
+    """(truth, refit with the hidden effect, refit with another) of visible effects."""
+    folder = tmp_path_factory.mktemp("tables")
+    by_name = {item["name"]: item for item in CANDIDATES}
+    found = []
+    tables = [table for table in toy.generator.tables() if table.kind == "effect"]
+    for table in [table for table in tables if table.variant.strength == "six_sigma"][:6]:
+        rows, truth = toy.generator.make(table)
+        path = folder / table.id / "measurements.csv"
+        write_table(path, rows)
+        name = table.variant.effects[0]
+        other = next(item for item in CANDIDATES if item["name"] != name)
+        right = added(toy.network, signatures, by_name[name], path)
+        found.append((truth, right, added(toy.network, signatures, other, path)))
+    return found
+
+
+def test_the_hidden_effect_explains_more_than_another(fits):
+    for truth, right, wrong in fits:
+        gain = right["without"]["chi2"] - right["with"]["chi2"]
+        assert gain > 15
+        assert gain > wrong["without"]["chi2"] - wrong["with"]["chi2"]
+
+
+def test_the_fit_is_as_good_as_the_noise(fits):
+    data = 24 * 5 * 4 / 5
+    for _, right, _ in fits:
+        assert right["with"]["chi2"] == pytest.approx(data, abs=4.5 * (2 * data) ** 0.5)
+
+
+def test_amplitude_error_and_parameters_come_nearer_to_the_truth(fits):
+    fallen, moved = 0, 0
+    for truth, right, _ in fits:
+        true = next(iter(truth["effects"].values()))
+        assert right["with"]["amplitude"] == pytest.approx(true, rel=0.6)
+        case = Case("t1", truth, {}, right)
+        fallen += left_out_falls(case)
+        moved += moves_toward_truth(case)
+    # Little of these effects is absorbed, so that noise moves parameters about as much.
+    assert fallen >= 5 and moved >= 4
+
+
+def test_nothing_is_added_unless_the_verdict_names_it():
+    verdict = {"flagged": True, "effects": ["back_stress", "anvil_friction"]}
+    assert named_effect({"verdict": verdict}) == "back_stress"
+    assert named_effect({"verdict": {**verdict, "flagged": False}}) is None
+    assert named_effect({"verdict": {**verdict, "effects": []}}) is None

@@ -108,6 +108,7 @@ bool is_adequate_without(const DiagnosisProblem& problem, const Refit& fit,
             kept.push_back(i);
     const PartOfModel model(problem.model, kept);
     std::vector<MeasuredNumber> data;
+    data.reserve(kept.size());
     for (const Eigen::Index i : kept)
         data.push_back(problem.data[static_cast<std::size_t>(i)]);
     DiagnosisProblem rest{model,

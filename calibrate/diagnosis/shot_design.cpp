@@ -196,6 +196,7 @@ std::vector<NextExperiment> design_shots(const DiagnosisStudy& study,
                                          std::size_t count) {
     const std::vector<Explanation> explanations = explanations_of(problem, mode, set);
     std::vector<std::string> names;
+    names.reserve(explanations.size());
     for (const Explanation& e : explanations) names.push_back(e.name);
     if (names.back().empty()) return {};
     const ShotJudge judge(study, mode, explanations);

@@ -13,6 +13,7 @@ class ThirdsOfVelocity {
   public:
     explicit ThirdsOfVelocity(const std::vector<ShotLabel>& shots) {
         std::vector<double> velocities;
+        velocities.reserve(shots.size());
         for (const ShotLabel& shot : shots) velocities.push_back(shot.velocity_m_s);
         std::sort(velocities.begin(), velocities.end());
         const std::size_t n = velocities.size();

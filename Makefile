@@ -63,7 +63,7 @@ paper: build ## the source paper's statements beside ours, with figures
 	$(SNAKEMAKE) --snakefile tests/verification/Snakefile --cores $(JOBS) paper
 	@cat results/verification/paper.txt
 
-accuracy: build ## convergence, scatter, dissipation, bars and a random sample of runs; two hours
+accuracy: build ## convergence, scatter, dissipation, bars and a random sample of runs; an hour
 	$(SNAKEMAKE) --snakefile tests/verification/Snakefile --cores $(JOBS) accuracy
 
 discovery: build ## blind tables with hidden effects: how often are they found?

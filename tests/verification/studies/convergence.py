@@ -18,7 +18,7 @@ def collect():
     """One row a run: what it was, its sizes [mm] and its cost."""
     rows = []
     for series in SERIES:
-        geometry, grains, _ = series
+        geometry, grains, *_ = series
         for elements, shape, velocity in convergence_cases(series):
             answer = read_run(convergence_name(series, (elements, shape, velocity)))
             cost = {key: answer[key] for key in ["points", "steps", "cpu_s", "status"]}
@@ -57,7 +57,7 @@ def draw(table, path):
     for row, shape in zip(axes, SHAPES):
         for axis, velocity in zip(row, VELOCITIES):
             case = table[(table["shape"] == shape) & (table["velocity_m_s"] == velocity)]
-            for (geometry, grains, _), style in zip(SERIES, ["o-", "s:", "^--"]):
+            for (geometry, grains, *_), style in zip(SERIES, ["o-", "s:", "^--"]):
                 part = case[(case["geometry"] == geometry) & (case["grains"] == grains)]
                 for size in DRAWN:
                     axis.plot(

@@ -3,11 +3,22 @@
 from impact_runs import SHAPES, files_of, run_name
 
 VELOCITIES = [60, 90, 120]  # [m/s]
-# Geometry, grains a point, and cells or particles over the rear radius. In 3D one grain is the
-# source paper's choice; several tell what belongs to the geometry and what to the grains.
-SERIES = [("axisymmetric", 16, [5, 8, 12]), ("3d", 1, [4, 6]), ("3d", 4, [4, 6])]
-# 46k particles, as many as the source paper's, where they cost a minute or two.
-FINE_SOLID = [(9, "uniform_cylinder", 90), (9, "reduced_head_4mm", 90)]
+EVERYWHERE = {shape: VELOCITIES for shape in SHAPES}
+# In 3D every velocity only where a section holds enough particles to tell something.
+SOLID = {
+    "uniform_cylinder": VELOCITIES,
+    "reduced_head_4mm": VELOCITIES,
+    "reduced_head_3mm": [90],
+    "truncated_cone": [90],
+}
+# Geometry, grains a point, cells or particles over the rear radius, and velocities. In 3D one
+# grain is the source paper's choice; several tell what belongs to the geometry and what to
+# the grains.
+SERIES = [
+    ("axisymmetric", 16, [5, 8, 12], EVERYWHERE),
+    ("3d", 1, [4, 6], {shape: [90] for shape in SHAPES}),
+    ("3d", 4, [4, 6], SOLID),
+]
 NOISE_SETTINGS = [("axisymmetric", 5, 8), ("axisymmetric", 8, 16), ("3d", 4, 1), ("3d", 4, 4)]
 NOISE_SEEDS = {"axisymmetric": range(1, 9), "3d": range(1, 5)}
 NOISE_VELOCITY = 90
@@ -20,13 +31,12 @@ ENERGY_VELOCITY = 120
 
 def convergence_cases(series):
     """(elements, shape, velocity) of one of SERIES."""
-    geometry, grains, levels = series
-    cases = [(n, shape, v) for n in levels for shape in SHAPES for v in VELOCITIES]
-    return cases + (FINE_SOLID if (geometry, grains) == ("3d", 1) else [])
+    *_, levels, velocities = series
+    return [(n, shape, v) for n in levels for shape in velocities for v in velocities[shape]]
 
 
 def convergence_name(series, case):
-    geometry, grains, _ = series
+    geometry, grains, *_ = series
     elements, shape, velocity = case
     return run_name(geometry, elements, grains, shape, velocity)
 

@@ -9,7 +9,15 @@ import h5py
 import matplotlib
 import numpy as np
 from impact_runs import RUNS, SHAPE_WORDS, read_run
-from paper_statements import STATEMENTS, axisymmetric_name, solid_name
+from paper_statements import (
+    ELEMENTS,
+    GRAINS,
+    SOLID_ELEMENTS,
+    SOLID_GRAINS,
+    STATEMENTS,
+    axisymmetric_name,
+    solid_name,
+)
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
@@ -44,8 +52,9 @@ COMMENTS = [
 
 def table():
     lines = [
-        "The paper's statements at its optimum (ii) and ours (axisymmetric, 16 cells across the",
-        "radius; 3d, 6 particles across the radius, one grain each).",
+        "The paper's statements at its optimum (ii) and ours (axisymmetric,",
+        f"{ELEMENTS} cells across the radius, {GRAINS} grains each;",
+        f"3d, {SOLID_ELEMENTS} particles across the radius, {SOLID_GRAINS} grain each).",
         "",
         f"{'case':<28}{'':<32}{'paper':>12}{'(r, z)':>10}{'3d':>10}",
     ]

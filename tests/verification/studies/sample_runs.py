@@ -9,7 +9,7 @@ from impact_runs import SHAPES  # noqa: E402
 from make_design import design  # noqa: E402
 
 RUNS = 500
-FIDELITY = "standard"
+FIDELITY = "coarse"
 SEED = 1
 PARAMETERS = {
     "rho_immobile_initial": {"lower": 1e10, "upper": 1e15, "prior": "log_uniform"},

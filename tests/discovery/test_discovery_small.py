@@ -1,4 +1,4 @@
-"""A handful of blind tables, kept in small/, through the real programs: what do they say?"""
+"""A handful of blind tables of one metal, in small/, through the real programs."""
 
 import csv
 import io
@@ -37,7 +37,7 @@ def listed(tmp_path_factory):
     write_candidates(folder / "candidates.json", kept)
     dropped = [item for item in candidates if item not in kept]
     for part in ("signatures.h5", "signatures_finer.h5"):
-        write_part(STUDY / part, folder / part, dropped)
+        write_part(SMALL / part, folder / part, dropped)
     return folder
 
 

@@ -2,10 +2,12 @@
 
 import shlex
 import subprocess
+from pathlib import Path
 
 import pytest
-from conftest import ROOT
 from deformations import path_of
+
+ROOT = Path(__file__).parents[2]
 
 
 def path():

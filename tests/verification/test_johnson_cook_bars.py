@@ -2,7 +2,7 @@
 
 Copper bars of Johnson and Cook 1983 at 130, 146 and 190 m/s, with the constants they fitted: their
 own computed lengths, and the measured ones. A 42CrMo4 steel bar at 287 m/s by two finite-element
-codes with five cells across the radius; our coarse setting has five as well, the standard one eight.
+codes with five cells across the radius; our coarse setting has five as well, the standard eight.
 """
 
 import csv

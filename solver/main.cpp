@@ -1,6 +1,7 @@
 #include "common/errors.hpp"
 #include "common/provenance.hpp"
 #include "solver/commands/batch.hpp"
+#include "solver/commands/effects.hpp"
 #include "solver/commands/merge.hpp"
 #include "solver/commands/parameters.hpp"
 #include "solver/commands/plate.hpp"
@@ -26,6 +27,7 @@ int run(int argc, char** argv) {
     add_point(app);
     add_plate(app);
     add_parameters(app);
+    add_effects(app);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -34,6 +34,36 @@ std::array<double, 4> corner_volumes(const std::array<double, 4>& r,
     return volumes;
 }
 
+// A skin may be thinner than a cell: its mean over this many places along each edge.
+constexpr int density_samples = 4;
+
+/// Of rhoI(0), by grains; empty if none differs.
+std::vector<double> initial_density_factors(const Mesh& mesh, std::size_t grains,
+                                            const impact::Additions& additions) {
+    std::vector<double> factors;
+    if (additions.initial_density.empty()) return factors;
+    for (const auto& corners : mesh.cells) {
+        double sum = 0;
+        for (int i = 0; i < density_samples; ++i) {
+            for (int j = 0; j < density_samples; ++j) {
+                const double x = (i + 0.5) / density_samples;
+                const double y = (j + 0.5) / density_samples;
+                const auto place = [&](const std::vector<double>& of_nodes) {
+                    return std::lerp(
+                        std::lerp(of_nodes[corners[0]], of_nodes[corners[1]], x),
+                        std::lerp(of_nodes[corners[3]], of_nodes[corners[2]], x), y);
+                };
+                double factor = 1;
+                for (const auto& rule : additions.initial_density)
+                    factor *= rule(place(mesh.node_radius), place(mesh.node_height));
+                sum += factor;
+            }
+        }
+        factors.insert(factors.end(), grains, sum / (density_samples * density_samples));
+    }
+    return factors;
+}
+
 }  // namespace
 
 Body::Body(const impact::ImpactCase& impact_case)
@@ -47,7 +77,9 @@ Body::Body(const impact::ImpactCase& impact_case)
       node_mass(radius.size(), 0.0),
       equation_of_state(material::make_equation_of_state(impact_case.material)),
       parameters(impact_case.material),
-      numerics(impact_case.numerics) {
+      numerics(impact_case.numerics),
+      heated_share(parameters.taylor_quinney - impact_case.additions.unheated_share),
+      anvil(mesh, impact_case.additions) {
     const std::size_t count = mesh.cells.size();
     const double initial_energy =
         equation_of_state->energy_at_temperature(impact_case.initial_temperature_K);
@@ -83,7 +115,10 @@ Body::Body(const impact::ImpactCase& impact_case)
     }
     const auto grains = static_cast<std::size_t>(numerics.grains_per_point);
     strength = material::make_strength<float>(
-        parameters, material::grain_orientations(count, grains, impact_case.seed));
+        parameters, material::grain_orientations(count, grains, impact_case.seed,
+                                                 impact_case.additions.orientations));
+    strength->change({impact_case.additions.grains,
+                      initial_density_factors(mesh, grains, impact_case.additions)});
     balance.initial_kinetic = kinetic_energy(*this);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "solver/axisymmetric/anvil.hpp"
 #include "solver/axisymmetric/mesh.hpp"
 #include "solver/axisymmetric/quadrilateral.hpp"
 #include "solver/impact/impact_case.hpp"
@@ -55,6 +56,8 @@ struct Body {
     std::unique_ptr<material::Strength<float>> strength;
     material::Parameters parameters;
     impact::Numerics numerics;
+    double heated_share;  ///< of the plastic work
+    Anvil anvil;
     EnergyBalance balance;
     impact::PhaseClock clock;
     double time = 0;

@@ -126,7 +126,7 @@ void close_energy(Body& body, std::size_t c, const Motion& m, const GrainSum& me
     const double old_viscous = body.viscous_pressure[c];
     const double viscous = artificial_viscosity(body, m, density, std::sqrt(m.ring.area),
                                                 body.thermo[c].bulk_modulus);
-    const double heating = (body.parameters.taylor_quinney * mean.plastic_power -
+    const double heating = (body.heated_share * mean.plastic_power -
                             (old_viscous + viscous) / 2 * m.divergence()) *
                            dt / density;
     // rho dE/dt = -P div v with the mean of old and new pressure.

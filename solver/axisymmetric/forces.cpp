@@ -26,6 +26,7 @@ void push_nodes(Body& body, std::size_t cell, double interval) {
 }
 
 void accelerate(Body& body, double time_step) {
+    if (!body.anvil.rigid_and_smooth()) return body.anvil.accelerate(body, time_step);
     for (std::size_t n = 0; n < body.nodes(); ++n) {
         const double mass = body.node_mass[n];
         body.radial_velocity[n] += body.radial_impulse[n] / mass;

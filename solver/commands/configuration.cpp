@@ -29,6 +29,18 @@ void read_numerics(const JsonReader& reader, impact::Numerics& numerics) {
     numerics.hourglass = share("hourglass", 10, numerics.hourglass);
 }
 
+void read_effects(const JsonReader& reader, effects::Amplitudes& amplitudes) {
+    reader.only(effects::effect_names());
+    for (const std::string& name : reader.keys()) {
+        const double value = reader.number(name);
+        try {
+            effects::set_amplitude(amplitudes, name, value);
+        } catch (const InputError& error) {
+            throw InputError(reader.where() + ": " + error.what());
+        }
+    }
+}
+
 }  // namespace
 
 void read_material(const JsonReader& reader, material::Parameters& material) {
@@ -51,7 +63,7 @@ void read_material(const JsonReader& reader, material::Parameters& material) {
 }
 
 Configuration read_configuration(const JsonReader& reader) {
-    reader.only({"geometry", "fidelity", "numerics", "material"});
+    reader.only({"geometry", "fidelity", "numerics", "material", "effects"});
     const std::string geometry =
         reader.word("geometry", impact::geometry_names(), "axisymmetric");
     const std::string fidelity =
@@ -64,6 +76,7 @@ Configuration read_configuration(const JsonReader& reader) {
         impact::numerics_for(impact::geometry_from_name(geometry), fidelity);
     read_numerics(reader.object_or_empty("numerics"), configuration.numerics);
     read_material(reader.object_or_empty("material"), configuration.material);
+    read_effects(reader.object_or_empty("effects"), configuration.effects);
     return configuration;
 }
 

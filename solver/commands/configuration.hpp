@@ -1,6 +1,7 @@
 #pragma once
 
 #include "common/json_reader.hpp"
+#include "solver/effects/effect_list.hpp"
 #include "solver/impact/impact_case.hpp"
 
 #include <string>
@@ -9,19 +10,20 @@
 
 namespace taylorcal::commands {
 
-/// What solver.json says: how impacts are computed, and the material before a run's own
-/// parameters are set.
+/// What solver.json says: how impacts are computed, and material and effects before a
+/// run's own are set.
 struct Configuration {
     nlohmann::json document;  ///< as given, with geometry and fidelity filled in
     impact::Numerics numerics;
     material::Parameters material;
+    effects::Amplitudes effects;
 };
 
 /// Sets the parameters that an object {name: value} gives. InputError as below.
 void read_material(const JsonReader& reader, material::Parameters& material);
 
-/// Reads {"geometry", "fidelity", "numerics": {name: value}, "material": {name: value}};
-/// all keys are optional.
+/// Reads {"geometry", "fidelity", "numerics": {name: value}, "material": {name: value},
+/// "effects": {name: amplitude}}; all keys are optional.
 /// InputError for an unknown key, a wrong word or a value out of range.
 Configuration read_configuration(const JsonReader& reader);
 

@@ -13,21 +13,26 @@
 namespace taylorcal::commands {
 namespace {
 
-/// The inputs that every row has, besides parameters of the material.
+/// The inputs that every row has, besides parameters of the material and effects.
 const std::vector<std::string> shot_inputs = {
     "velocity_m_s", "initial_diameter_mm", "length_to_diameter", "initial_temperature_K"};
+
+bool is_effect(const std::string& name) {
+    const std::vector<std::string> names = effects::effect_names();
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
 
 void check_input_names(const Design& design, const std::string& where) {
     std::vector<std::string> known = shot_inputs;
     for (const auto& info : material::parameter_list()) known.push_back(info.name);
+    for (const std::string& name : effects::effect_names()) known.push_back(name);
     std::set<std::string> seen;
     for (const std::string& name : design.input_names) {
         if (std::find(known.begin(), known.end(), name) == known.end()) {
             const std::string near = nearest_word(name, known);
             throw InputError(fmt::format(
                 "{}: input \"{}\" is unknown{}. Inputs are {} and the names that "
-                "\"solver "
-                "parameters\" lists.",
+                "\"solver parameters\" and \"solver effects\" list.",
                 where, name, near.empty() ? "" : " (did you mean \"" + near + "\"?)",
                 fmt::join(shot_inputs, ", ")));
         }
@@ -133,7 +138,7 @@ std::vector<impact::ImpactCase> make_cases(const Design& design,
     for (std::size_t row = 0; row < design.rows(); ++row) {
         const std::string where =
             fmt::format("{}, run {}", path.string(), design.run_id[row]);
-        Configuration with_parameters = configuration;
+        Configuration of_run = configuration;
         Shot shot;
         double length_to_diameter = 0;
         try {
@@ -153,14 +158,16 @@ std::vector<impact::ImpactCase> make_cases(const Design& design,
                     length_to_diameter = value;
                 else if (name == "initial_temperature_K")
                     shot.initial_temperature_K = value;
+                else if (is_effect(name))
+                    effects::set_amplitude(of_run.effects, name, value);
                 else
-                    material::set_parameter(with_parameters.material, name, value);
+                    material::set_parameter(of_run.material, name, value);
             }
         } catch (const InputError& error) {
             throw InputError(where + ": " + error.what());
         }
         shot.initial_length_mm = length_to_diameter * shot.initial_diameter_mm;
-        cases.push_back(make_case(shot, with_parameters, where));
+        cases.push_back(make_case(shot, of_run, where));
     }
     return cases;
 }

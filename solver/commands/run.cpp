@@ -7,6 +7,7 @@
 #include "solver/commands/vtk_series.hpp"
 #include "solver/impact/simulate.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -38,6 +39,7 @@ const char* const samples = R"(Sample runs:
   solver run --shape truncated_cone --velocity 120
   solver run solver.json --shape reduced_head_3mm --velocity 90 --out run.h5
   solver run --velocity 117.6 --geometry 3d --set hardening_coefficient=2.8
+  solver run --shape truncated_cone --velocity 120 --set anvil_friction=0.05
   solver run --shape reduced_head_3mm --velocity 90 --snapshots fields --every-us 10
   solver run --velocity 227 --diameter-mm 6.4 --length-mm 32.4 --until-us 80 \
     --set strength=j2 --set equation_of_state=linear --set bulk_modulus=130e9 \
@@ -63,6 +65,24 @@ void apply_setting(const std::string& option, const std::string& setting,
         entry = value;
 }
 
+/// The block that "name=value" belongs to. InputError with the nearest name when no
+/// parameter and no effect has this one.
+std::string block_of(const std::string& setting) {
+    const std::string name = setting.substr(0, setting.find('='));
+    const std::vector<std::string> effect_names = effects::effect_names();
+    if (std::find(effect_names.begin(), effect_names.end(), name) != effect_names.end())
+        return "effects";
+    std::vector<std::string> known = material::setting_names();
+    if (std::find(known.begin(), known.end(), name) != known.end()) return "material";
+    known.insert(known.end(), effect_names.begin(), effect_names.end());
+    const std::string near = nearest_word(name, known);
+    throw InputError(fmt::format(
+        "--set {}: \"{}\" is unknown{}. \"solver parameters\" and \"solver effects\" "
+        "list "
+        "the names.",
+        setting, name, near.empty() ? "" : " (did you mean \"" + near + "\"?)"));
+}
+
 Configuration configuration_of(const RunOptions& options) {
     const JsonReader file = options.configuration.empty()
                                 ? JsonReader(nlohmann::json::object(), "solver.json")
@@ -72,7 +92,7 @@ Configuration configuration_of(const RunOptions& options) {
     if (!options.geometry.empty()) document["geometry"] = options.geometry;
     if (!options.fidelity.empty()) document["fidelity"] = options.fidelity;
     for (const std::string& setting : options.settings)
-        apply_setting("--set", setting, document["material"]);
+        apply_setting("--set", setting, document[block_of(setting)]);
     for (const std::string& setting : options.numerics)
         apply_setting("--numerics", setting, document["numerics"]);
     return read_configuration(JsonReader(document, "command line"));
@@ -155,10 +175,10 @@ void add_run(CLI::App& app) {
     command->add_option("--fidelity", options->fidelity,
                         "coarse, standard or fine (over solver.json's)");
     command
-        ->add_option(
-            "--set", options->settings,
-            "name=value of a material parameter, see `solver parameters`; may be "
-            "repeated")
+        ->add_option("--set", options->settings,
+                     "name=value of a material parameter or an effect, see `solver "
+                     "parameters` and "
+                     "`solver effects`; may be repeated")
         ->allow_extra_args(false);
     command
         ->add_option("--numerics", options->numerics,

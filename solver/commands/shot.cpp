@@ -34,6 +34,11 @@ impact::ImpactCase make_case(const Shot& shot, const Configuration& configuratio
     impact_case.material = configuration.material;
     impact_case.numerics = configuration.numerics;
     impact_case.seed = shot.seed;
+    try {
+        effects::apply_effects(configuration.effects, impact_case);
+    } catch (const InputError& error) {
+        throw InputError(where + ": " + error.what());
+    }
     return impact_case;
 }
 

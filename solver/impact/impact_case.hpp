@@ -1,5 +1,6 @@
 #pragma once
 
+#include "solver/impact/additions.hpp"
 #include "solver/material/parameters.hpp"
 #include "solver/specimen/shape.hpp"
 
@@ -35,12 +36,14 @@ Geometry geometry_from_name(const std::string& name);
 /// "coarse", "standard" or "fine" for a geometry. InputError when unknown.
 Numerics numerics_for(Geometry geometry, const std::string& fidelity);
 
-/// One Taylor impact: a specimen that flies towards a rigid, frictionless anvil (z < 0).
+/// One Taylor impact: a specimen that flies towards an anvil (z < 0), which is rigid and
+/// frictionless unless the additions say otherwise.
 struct ImpactCase {
     specimen::Shape shape = specimen::make_shape(specimen::ShapeKind::uniform_cylinder);
     double velocity_m_s = 100;
     double initial_temperature_K = 300;
     material::Parameters material;
+    Additions additions;  ///< of the effects that are switched on
     Numerics numerics;
     std::uint64_t seed = 1;     ///< of the grain orientations
     double run_until_s = 0;     ///< if positive: stop at this time, not with the rear

@@ -78,6 +78,15 @@ auto DislocationStrength<Real, variant>::hardening(const Block& block,
     return parameters_.initial_yield_stress + scale * shear_modulus * lane_sqrt(total);
 }
 
+/// Ys as the hooks leave it [Pa].
+template <class Real, simd::Variant variant>
+auto DislocationStrength<Real, variant>::resistance(const Block& block,
+                                                    const V& shear_modulus) const -> V {
+    V found = hardening(block, shear_modulus);
+    if (!hooks_.slip_resistance.empty()) change_resistance(block, found);
+    return found;
+}
+
 /// Moves the block by the step's duration, shortened until no system multiplies too much,
 /// and asks for the next duration.
 template <class Real, simd::Variant variant>
@@ -123,6 +132,7 @@ void DislocationStrength<Real, variant>::advance(Block& block,
     step.sound_speed = lane_sqrt(step.shear_modulus / V(input.density));
     step.drag = parameters_.drag_constant + parameters_.drag_slope * V(input.temperature);
     block.shear_modulus = step.shear_modulus;
+    block.temperature = input.temperature;
     step.duration = input.time_step;
 
     V plastic_before[5];
@@ -141,7 +151,11 @@ void DislocationStrength<Real, variant>::advance(Block& block,
         const double count = std::max(1.0, std::ceil(left / wanted));
         step.duration = static_cast<Real>(left / count);
         Slip slip;
+        Lean lean;
+        if (!hooks_.back_stress.empty()) lean_back(block, lean);
         substep(block, step, shortest, slip);
+        if (!hooks_.back_stress.empty()) straighten(lean, step, block, slip);
+        if (block.slips && !hooks_.densities.empty()) change_densities(block, step, slip);
         work += slip.power * step.duration;
         // The last part of a step takes all of it, whatever the rounding.
         const auto duration = static_cast<double>(step.duration);
@@ -172,7 +186,7 @@ bool DislocationStrength<Real, variant>::is_elastic(const Block& block,
     V largest = {};
     for (const auto& m : rounded_schmid_tensors<Real>)
         largest = lane_max(largest, lane_abs(resolve(m, trial)));
-    const V threshold = hardening(block, step.shear_modulus) / 2;
+    const V threshold = resistance(block, step.shear_modulus) / 2;
     return !any_lane(2 * step.shear_modulus * largest > threshold);
 }
 
@@ -220,8 +234,7 @@ void DislocationStrength<Real, variant>::solve_stress(Block& block, const Step& 
     const V dt = step.duration;
     const auto b = static_cast<Real>(parameters_.burgers_vector);
     const V two_g = 2 * step.shear_modulus;
-    const V resistance = hardening(block, step.shear_modulus);
-    const V threshold = resistance / 2;
+    const V threshold = resistance(block, step.shear_modulus) / 2;
     const V scale = b / (step.sound_speed * step.drag);  // zeta per Pa of excess stress
     const V slope_scale = dt * b * step.sound_speed * scale * two_g;
 
@@ -376,11 +389,110 @@ GrainState DislocationStrength<Real, variant>::state(std::size_t grain) const {
                                    static_cast<double>(block.shear_modulus[lane]) *
                                    parameters_.burgers_vector *
                                    std::sqrt(state.immobile_density_m2);
+    if (!hooks_.slip_resistance.empty()) {
+        V changed = state.slip_resistance_Pa;
+        change_resistance(block, changed);
+        state.slip_resistance_Pa = static_cast<double>(changed[lane]);
+    }
     state.annihilated_energy_J_m3 = static_cast<double>(block.annihilated_energy[lane]);
     state.grain_diameter_m = grain_diameter(parameters_, state.annihilated_energy_J_m3);
     state.weakened_fraction =
         weakened_fraction(parameters_, state.annihilated_energy_J_m3);
     return state;
+}
+
+template <class Real, simd::Variant variant>
+void DislocationStrength<Real, variant>::change(const GrainChanges& changes) {
+    hooks_ = changes.hooks;
+    if (changes.immobile_factor.empty()) return;
+    constexpr std::size_t lanes = lane_count<Real>;
+    for (std::size_t n = 0; n < blocks_.size(); ++n) {
+        for (std::size_t lane = 0; lane < lanes; ++lane) {
+            const std::size_t grain =
+                std::min(n * lanes + lane, changes.immobile_factor.size() - 1);
+            for (V& density : blocks_[n].immobile)
+                density[lane] *= static_cast<Real>(changes.immobile_factor[grain]);
+        }
+    }
+}
+
+/// The block as hooks see it.
+template <class Real, simd::Variant variant>
+[[gnu::noinline, gnu::cold]] GrainBlock DislocationStrength<Real, variant>::seen(
+    const Block& block) {
+    GrainBlock view;
+    view.lanes = lane_count<Real>;
+    const auto copy = [](const V& from, LaneValues& to) {
+        for (std::size_t lane = 0; lane < lane_count<Real>; ++lane)
+            to[lane] = static_cast<double>(from[lane]);
+    };
+    copy(block.temperature, view.temperature);
+    copy(block.shear_modulus, view.shear_modulus);
+    copy(block.annihilated_energy, view.annihilated_energy);
+    for (std::size_t k = 0; k < 5; ++k) copy(block.plastic[k], view.plastic_strain[k]);
+    for (std::size_t d = 0; d < slip_system_count; ++d) {
+        copy(block.mobile[d], view.mobile[d]);
+        copy(block.immobile[d], view.immobile[d]);
+    }
+    return view;
+}
+
+template <class Real, simd::Variant variant>
+[[gnu::noinline, gnu::cold]] void DislocationStrength<Real, variant>::change_resistance(
+    const Block& block, V& resistance) const {
+    GrainBlock view = seen(block);
+    for (std::size_t lane = 0; lane < view.lanes; ++lane)
+        view.slip_resistance[lane] = static_cast<double>(resistance[lane]);
+    for (const GrainHook& hook : hooks_.slip_resistance) hook(view);
+    for (std::size_t lane = 0; lane < view.lanes; ++lane)
+        resistance[lane] = static_cast<Real>(std::max(view.slip_resistance[lane], 0.0));
+}
+
+/// Slip answers to S - X, which is 2 G (e - X/2G): with e moved by -X/2G for the substep
+/// its equations stay as they are.
+template <class Real, simd::Variant variant>
+[[gnu::noinline, gnu::cold]] void DislocationStrength<Real, variant>::lean_back(
+    Block& block, Lean& lean) const {
+    GrainBlock view = seen(block);
+    for (const GrainHook& hook : hooks_.back_stress) hook(view);
+    for (std::size_t k = 0; k < 5; ++k) {
+        for (std::size_t lane = 0; lane < view.lanes; ++lane)
+            lean.elastic[k][lane] = static_cast<Real>(view.back_stress[k][lane] /
+                                                      (2 * view.shear_modulus[lane]));
+        block.elastic[k] -= lean.elastic[k];
+        lean.plastic[k] = block.plastic[k];
+    }
+}
+
+/// Moves e back; the whole stress does plastic work.
+template <class Real, simd::Variant variant>
+[[gnu::noinline, gnu::cold]] void DislocationStrength<Real, variant>::straighten(
+    const Lean& lean, const Step& step, Block& block, Slip& slip) const {
+    V work = {};
+    for (std::size_t k = 0; k < 5; ++k) {
+        block.elastic[k] += lean.elastic[k];
+        work += lean.elastic[k] * (block.plastic[k] - lean.plastic[k]);
+    }
+    slip.power += 2 * step.shear_modulus * work / step.duration;
+}
+
+template <class Real, simd::Variant variant>
+[[gnu::noinline, gnu::cold]] void DislocationStrength<Real, variant>::change_densities(
+    Block& block, const Step& step, const Slip& slip) const {
+    GrainBlock view = seen(block);
+    view.duration = static_cast<double>(step.duration);
+    for (std::size_t d = 0; d < slip_system_count; ++d)
+        for (std::size_t lane = 0; lane < view.lanes; ++lane)
+            view.slip_speed[d][lane] = static_cast<double>(slip.speed[d][lane]);
+    for (const GrainHook& hook : hooks_.densities) hook(view);
+    for (std::size_t d = 0; d < slip_system_count; ++d) {
+        for (std::size_t lane = 0; lane < view.lanes; ++lane) {
+            block.mobile[d][lane] =
+                static_cast<Real>(std::max(view.mobile[d][lane], 1.0));
+            block.immobile[d][lane] =
+                static_cast<Real>(std::max(view.immobile[d][lane], 1.0));
+        }
+    }
 }
 
 template <class Real>

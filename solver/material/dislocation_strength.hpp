@@ -26,6 +26,7 @@ class DislocationStrength final : public Strength<Real> {
     void update(std::size_t block, const BlockInput<Real>& input,
                 BlockOutput<Real>& output) override;
     GrainState state(std::size_t grain) const override;
+    void change(const GrainChanges& changes) override;
 
   private:
     using V = Registers<Real, variant>;
@@ -40,6 +41,7 @@ class DislocationStrength final : public Strength<Real> {
         V drag_root[slip_system_count];  ///< z of the last step
         V annihilated_energy;            ///< J [J/m3]
         V shear_modulus;                 ///< G of the last step [Pa]
+        V temperature;                   ///< of the last step [K]
         double next_substep;             ///< that the kinetics allow [s]
         V rest_dilatation;               ///< integral of div v while at rest
         double rest_time;                ///< since no system slips [s]
@@ -72,6 +74,12 @@ class DislocationStrength final : public Strength<Real> {
         V growth;  ///< of the mobile density that grew most, above one
     };
 
+    /// How a back stress moves e during a substep, and the plastic strain before it.
+    struct Lean {
+        V elastic[5];  ///< X/2G
+        V plastic[5];  ///< w
+    };
+
     void advance(Block& block, const BlockInput<Real>& input,
                  BlockOutput<Real>& output) const;
     bool is_elastic(const Block& block, const Step& step) const;
@@ -82,9 +90,16 @@ class DislocationStrength final : public Strength<Real> {
                           Outcome& outcome) const;
     void accept(const Outcome& outcome, const Step& step, Block& block, Slip& slip) const;
     V hardening(const Block& block, const V& shear_modulus) const;
+    V resistance(const Block& block, const V& shear_modulus) const;
+    static GrainBlock seen(const Block& block);
+    void change_resistance(const Block& block, V& resistance) const;
+    void lean_back(Block& block, Lean& lean) const;
+    void straighten(const Lean& lean, const Step& step, Block& block, Slip& slip) const;
+    void change_densities(Block& block, const Step& step, const Slip& slip) const;
     void substep(Block& block, Step& step, double shortest, Slip& slip) const;
 
     Parameters parameters_;
+    GrainHooks hooks_;
     std::vector<Block> blocks_;
 };
 

@@ -12,6 +12,7 @@ namespace {
 constexpr std::size_t moment_count = 15;
 constexpr std::uint64_t set_stream = 0x6f7269656e74;  // of the search, same for all seeds
 constexpr std::uint64_t cell_stream = 0x63656c6c;
+constexpr std::uint64_t change_stream = 0x74657874;
 constexpr std::uint64_t search_steps = 20000;
 
 using Moment = std::array<double, moment_count>;
@@ -124,17 +125,33 @@ std::vector<Eigen::Quaterniond> isotropic_set(std::size_t count) {
     return entry;
 }
 
-std::vector<Eigen::Quaterniond> grain_orientations(std::size_t points,
-                                                   std::size_t per_point,
-                                                   std::uint64_t seed) {
+Eigen::Quaterniond changed_orientation(const std::vector<OrientationChange>& changes,
+                                       const Eigen::Quaterniond& drawn,
+                                       std::uint64_t seed, std::uint64_t point,
+                                       std::size_t grain, std::size_t per_point) {
+    Eigen::Quaterniond orientation = drawn;
+    for (std::size_t i = 0; i < changes.size(); ++i) {
+        const RandomStream random(seed, change_stream + i);
+        const double offset = static_cast<double>(grain) / static_cast<double>(per_point);
+        double whole = 0;
+        const double uniform = std::modf(random.uniform(point) + offset, &whole);
+        orientation = changes[i](orientation, uniform);
+    }
+    return orientation;
+}
+
+std::vector<Eigen::Quaterniond> grain_orientations(
+    std::size_t points, std::size_t per_point, std::uint64_t seed,
+    const std::vector<OrientationChange>& changes) {
     const std::vector<Eigen::Quaterniond> set = isotropic_set(per_point);
     const RandomStream random(seed, cell_stream);
     std::vector<Eigen::Quaterniond> orientations;
     orientations.reserve(points * per_point);
     for (std::size_t point = 0; point < points; ++point) {
         const Eigen::Quaterniond rotation = uniform_rotation(random, point);
-        for (const Eigen::Quaterniond& grain : set)
-            orientations.push_back(rotation * grain);
+        for (std::size_t g = 0; g < per_point; ++g)
+            orientations.push_back(changed_orientation(changes, rotation * set[g], seed,
+                                                       point, g, per_point));
     }
     return orientations;
 }

@@ -3,6 +3,7 @@
 #include "common/random.hpp"
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -16,11 +17,24 @@ Eigen::Quaterniond uniform_rotation(const RandomStream& random, std::uint64_t in
 /// that of a random polycrystal as a search finds; the same on each call.
 std::vector<Eigen::Quaterniond> isotropic_set(std::size_t count);
 
+/// Turns a grain that was drawn at random into that of a texture, with the help of a
+/// number uniform in [0, 1); must commute with turns about z.
+using OrientationChange =
+    std::function<Eigen::Quaterniond(const Eigen::Quaterniond& drawn, double uniform)>;
+
+/// A grain after all changes. Its uniform numbers are a function of `seed`, of the
+/// `point` and of the grain's number among the point's `per_point`, over which they are
+/// spread evenly: a share of all grains is one of each point's.
+Eigen::Quaterniond changed_orientation(const std::vector<OrientationChange>& changes,
+                                       const Eigen::Quaterniond& drawn,
+                                       std::uint64_t seed, std::uint64_t point,
+                                       std::size_t grain, std::size_t per_point);
+
 /// Orientations of `per_point` grains for each of `points` points, point by point. Each
 /// point has the same isotropic set under a uniform rotation of its own: less scatter
 /// than independent grains, and no texture common to all points.
-std::vector<Eigen::Quaterniond> grain_orientations(std::size_t points,
-                                                   std::size_t per_point,
-                                                   std::uint64_t seed);
+std::vector<Eigen::Quaterniond> grain_orientations(
+    std::size_t points, std::size_t per_point, std::uint64_t seed,
+    const std::vector<OrientationChange>& changes = {});
 
 }  // namespace taylorcal::material

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "common/lanes.hpp"
+#include "solver/material/grain_hooks.hpp"
 #include "solver/material/parameters.hpp"
 
 #include <cstddef>
@@ -55,6 +56,8 @@ class Strength {
     virtual void update(std::size_t block, const BlockInput<Real>& input,
                         BlockOutput<Real>& output) = 0;
     virtual GrainState state(std::size_t grain) const = 0;
+    /// Changes the model before the first step; models without dislocations ignore it.
+    virtual void change(const GrainChanges&) {}
 };
 
 /// Makes the strength model that `parameters.strength` names for `orientations.size()`

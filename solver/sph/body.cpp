@@ -17,6 +17,46 @@ constexpr double edges_per_courant_number = 2;
 // third and three times the default move lengths by 0.2 % and face diameters by 1 %.
 constexpr double damping_per_coefficient = 0.3;
 
+/// Of rhoI(0), by grains in the order of the strength's blocks; empty if none differs.
+/// The mean over eight places within a particle, since a skin may be thinner.
+std::vector<double> initial_density_factors(const Packing& packing, std::size_t grains,
+                                            const impact::Additions& additions) {
+    std::vector<double> factors;
+    if (additions.initial_density.empty()) return factors;
+    const double reach = packing.edge / 4;
+    for (const std::size_t block : packing.active) {
+        std::array<double, block_size> of_block{};
+        for (std::size_t k = 0; k < block_size; ++k) {
+            const std::size_t slot = block * block_size + k;
+            for (int corner = 0; corner < 8; ++corner) {
+                const double x = packing.x[slot] + (corner & 1 ? reach : -reach);
+                const double y = packing.y[slot] + (corner & 2 ? reach : -reach);
+                const double z = packing.z[slot] + (corner & 4 ? reach : -reach);
+                double factor = 1;
+                for (const auto& rule : additions.initial_density)
+                    factor *= rule(std::hypot(x, y), z);
+                of_block[k] += factor / 8;
+            }
+        }
+        for (std::size_t g = 0; g < grains; ++g)
+            factors.insert(factors.end(), of_block.begin(), of_block.end());
+    }
+    return factors;
+}
+
+std::unique_ptr<material::Strength<float>> strength_of(
+    const impact::ImpactCase& impact_case, const Packing& packing,
+    const StrengthFactory& make_strength) {
+    const auto grains = static_cast<std::size_t>(impact_case.numerics.grains_per_point);
+    const impact::Additions& additions = impact_case.additions;
+    auto strength = make_strength(
+        impact_case.material,
+        random_orientations(impact_case.seed, packing, grains, additions.orientations));
+    strength->change(
+        {additions.grains, initial_density_factors(packing, grains, additions)});
+    return strength;
+}
+
 }  // namespace
 
 Body::Body(const impact::ImpactCase& impact_case, const StrengthFactory& make_strength)
@@ -32,13 +72,9 @@ Body::Body(const impact::ImpactCase& impact_case, const StrengthFactory& make_st
                  damping_per_coefficient * impact_case.numerics.hourglass *
                      rest_.density * packing_.edge *
                      std::sqrt(rest_.state.bulk_modulus / rest_.density)),
-      constitutive_(
-          impact_case, packing_, *equation_of_state_, rest_,
-          make_strength(impact_case.material,
-                        random_orientations(impact_case.seed, packing_,
-                                            static_cast<std::size_t>(
-                                                impact_case.numerics.grains_per_point)))),
-      anvil_(packing_, rest_.density),
+      constitutive_(impact_case, packing_, *equation_of_state_, rest_,
+                    strength_of(impact_case, packing_, make_strength)),
+      anvil_(packing_, rest_.density, impact_case.additions),
       self_contact_(packing_, rest_.density),
       schedule_(packing_, reference_.stencils(packing_)) {
     particles_.position = {packing_.x, packing_.y, packing_.z};

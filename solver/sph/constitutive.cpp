@@ -92,7 +92,8 @@ Constitutive::Constitutive(const impact::ImpactCase& impact_case, const Packing&
       grains_(static_cast<std::size_t>(impact_case.numerics.grains_per_point)),
       rest_(rest),
       shear_ratio_(material::shear_modulus(1, impact_case.material.poisson_ratio)),
-      taylor_quinney_(static_cast<float>(impact_case.material.taylor_quinney)),
+      heated_share_(static_cast<float>(impact_case.material.taylor_quinney -
+                                       impact_case.additions.unheated_share)),
       linear_viscosity_(static_cast<float>(impact_case.numerics.linear_viscosity)),
       quadratic_viscosity_(static_cast<float>(impact_case.numerics.quadratic_viscosity)) {
 }
@@ -205,8 +206,8 @@ double Constitutive::advance(Particles& particles, const Reference& reference,
         (quadratic_viscosity_ * spacing * closing + linear_viscosity_ * sound_speed);
 
     const Vector hourglass = particles.hourglass_heating[block];
-    const Vector heating = taylor_quinney_ * response.plastic_power +
-                           viscosity * closing + hourglass * lane_inverse(middle_ratio);
+    const Vector heating = heated_share_ * response.plastic_power + viscosity * closing +
+                           hourglass * lane_inverse(middle_ratio);
     close_energy(particles, block, dilatation, density, heating, dt);
 
     Vector mean[6];
@@ -224,7 +225,7 @@ double Constitutive::advance(Particles& particles, const Reference& reference,
     const double plastic = sum(volume_step * response.plastic_power);
     work_.plastic += plastic;
     work_.stored_in_shear += sum(volume_step * power(mean, gradient)) -
-                             static_cast<double>(taylor_quinney_) * plastic;
+                             static_cast<double>(heated_share_) * plastic;
     work_.viscous += sum(volume_step * viscosity * closing);
     work_.hourglass += sum(volume * step * hourglass);
 

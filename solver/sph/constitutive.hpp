@@ -71,7 +71,7 @@ class Constitutive {
     std::size_t grains_;
     Rest rest_;
     double shear_ratio_;  // G/K
-    float taylor_quinney_;
+    float heated_share_;  // of the plastic work
     float linear_viscosity_;
     float quadratic_viscosity_;
     Work work_;

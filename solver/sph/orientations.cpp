@@ -30,9 +30,9 @@ QuarterTurns from_first_quadrant(int ix, int iy) {
 
 }  // namespace
 
-std::vector<Eigen::Quaterniond> random_orientations(std::uint64_t seed,
-                                                    const Packing& packing,
-                                                    std::size_t grains) {
+std::vector<Eigen::Quaterniond> random_orientations(
+    std::uint64_t seed, const Packing& packing, std::size_t grains,
+    const std::vector<material::OrientationChange>& changes) {
     constexpr std::uint64_t stream = 0x73706867;
     const RandomStream random(seed, stream);
     const std::vector<Eigen::Quaterniond> set = material::isotropic_set(grains);
@@ -58,8 +58,10 @@ std::vector<Eigen::Quaterniond> random_orientations(std::uint64_t seed,
             origin.turns * std::numbers::pi / 2, Eigen::Vector3d::UnitZ()));
         for (std::size_t g = 0; g < grains; ++g) {
             for (std::size_t k = 0; k < block_size; ++k) {
-                orientations.push_back(
-                    turn * material::uniform_rotation(random, first + k) * set[g]);
+                const Eigen::Quaterniond drawn =
+                    turn * material::uniform_rotation(random, first + k) * set[g];
+                orientations.push_back(material::changed_orientation(
+                    changes, drawn, seed, first + k, g, grains));
             }
         }
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "solver/material/grain_orientations.hpp"
 #include "solver/sph/packing.hpp"
 
 #include <cstddef>
@@ -18,8 +19,8 @@ namespace taylorcal::sph {
 /// each other have orientations that it carries onto each other too. A particle stands
 /// for ten thousand grains; left independent, its single one would be enough to bend a
 /// slender head to a side.
-std::vector<Eigen::Quaterniond> random_orientations(std::uint64_t seed,
-                                                    const Packing& packing,
-                                                    std::size_t grains);
+std::vector<Eigen::Quaterniond> random_orientations(
+    std::uint64_t seed, const Packing& packing, std::size_t grains,
+    const std::vector<material::OrientationChange>& changes = {});
 
 }  // namespace taylorcal::sph

@@ -1,0 +1,31 @@
+#include "solver/effects/effect.hpp"
+
+#include <numbers>
+
+namespace taylorcal::effects {
+
+Effect oblique_impact() {
+    return {
+        .name = "oblique_impact",
+        .symbol = "thetaA",
+        .equation = "anvil's normal at thetaA to the specimen's axis and flight",
+        .unit = "deg",
+        .lowest = 0,
+        .highest = 5,
+        .prior = {PriorKind::half_normal, 1},
+        .typical = 1,
+        .is_signed = false,
+        .acts_on = ActsOn::impact,
+        .geometries = {impact::Geometry::three_dimensional},
+        .needs_dislocations = false,
+        .description = "tilted anvil: one side of the rim touches first",
+        .source =
+            "shots tilted by more than 1 to 2 degrees are discarded by most laboratories",
+        .apply =
+            [](impact::ImpactCase& impact_case, double degrees) {
+                impact_case.additions.anvil_tilt = degrees * std::numbers::pi / 180;
+            },
+    };
+}
+
+}  // namespace taylorcal::effects

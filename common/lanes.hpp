@@ -20,10 +20,11 @@ namespace taylorcal {
 template <class Real>
 inline constexpr std::size_t lane_count = 64 / sizeof(Real);
 
-/// A block in the registers that a variant has: one of 64 bytes, two of 32 or four of 16.
-/// All arithmetic is lane by lane. The lanes lie in memory in their order whatever the
-/// variant, so that blocks of one convert to those of another.
-template <class Real, simd::Variant variant>
+/// A block in the registers that a variant has: one of 64 bytes, two of 32 or four of 16;
+/// or fewer lanes, as many as fill one register. All arithmetic is lane by lane. The
+/// lanes lie in memory in their order whatever the variant, so that blocks of one convert
+/// to those of another.
+template <class Real, simd::Variant variant, std::size_t lane_total = lane_count<Real>>
 class Registers {
     static constexpr std::size_t bytes = variant == simd::Variant::v4   ? 64
                                          : variant == simd::Variant::v3 ? 32
@@ -36,11 +37,13 @@ class Registers {
 
   public:
     using Lane = Real;
-    static constexpr std::size_t parts = 64 / bytes;
+    static constexpr std::size_t lanes = lane_total;
+    static constexpr std::size_t parts = lanes / part_size;
+    using One = Registers<Real, variant, part_size>;  ///< a single register
 
     /// A comparison's result, lane by lane.
     struct Mask {
-        alignas(64) Truth part[parts];
+        alignas(lane_total * sizeof(Real)) Truth part[parts];
 
         friend Mask operator&(Mask a, const Mask& b) {
             for (std::size_t i = 0; i < parts; ++i) a.part[i] &= b.part[i];
@@ -62,6 +65,14 @@ class Registers {
     };
 
     Registers() = default;
+    ~Registers() = default;
+    // Written out, since the compiler's own copies are of 16 bytes each, which stall the
+    // wider reads that follow.
+    Registers(const Registers& from) { *this = from; }
+    Registers& operator=(const Registers& from) {
+        for (std::size_t i = 0; i < parts; ++i) part_[i] = from.part_[i];
+        return *this;
+    }
     template <class Number>
     requires std::is_arithmetic_v<Number> Registers(Number value) {
         for (Part& part : part_) part = Part{} + static_cast<Real>(value);
@@ -86,6 +97,10 @@ class Registers {
     void store(Real* first) const {
         for (std::size_t i = 0; i < parts; ++i)
             *reinterpret_cast<Unaligned*>(first + i * part_size) = part_[i];
+    }
+    One one(std::size_t part) const { return One::load(data() + part * part_size); }
+    void set_one(std::size_t part, const One& from) {
+        from.store(data() + part * part_size);
     }
     const Real* data() const { return reinterpret_cast<const Real*>(part_); }
     Real* data() { return reinterpret_cast<Real*>(part_); }
@@ -173,7 +188,7 @@ class Registers {
         return result;
     }
 
-    alignas(64) Part part_[parts];
+    alignas(lane_total * sizeof(Real)) Part part_[parts];
 };
 
 /// How blocks are stored and handed on.
@@ -189,8 +204,7 @@ inline Lanes<Real> broadcast(Real value) {
 /// A function of every lane, one by one: not for hot loops.
 template <class Vector, class Function>
 inline Vector lane_map(Vector a, const Function& function) {
-    for (std::size_t lane = 0; lane < lane_count<typename Vector::Lane>; ++lane)
-        a[lane] = function(a[lane]);
+    for (std::size_t lane = 0; lane < Vector::lanes; ++lane) a[lane] = function(a[lane]);
     return a;
 }
 
@@ -209,28 +223,60 @@ inline Vector lane_inverse_sqrt(const Vector& a) {
     return 1 / lane_sqrt(a);
 }
 #ifdef TAYLORCAL_SIMD_VARIANTS
-// The 14-bit estimates of the processor and one Newton step: several times faster than
-// its division and square root, which would dominate the plasticity update.
-using Estimable = Registers<float, simd::Variant::v4>;
-[[gnu::target("arch=x86-64-v4")]] inline void estimate_inverse(const Estimable& a,
-                                                               Estimable& estimate) {
+// Estimates of the processor and one step of Newton's (AVX-512, 14 bits) or Halley's
+// method (AVX2, 12 bits): several times faster than its division and square root, which
+// would dominate the plasticity update. AVX2's estimates differ between makers of
+// processors, and with them the last bit of a result.
+using Estimable16 = Registers<float, simd::Variant::v4>;
+[[gnu::target("arch=x86-64-v4")]] inline void estimate_inverse(const Estimable16& a,
+                                                               Estimable16& estimate) {
     _mm512_store_ps(estimate.data(),
                     _mm512_maskz_rcp14_ps(0xffff, _mm512_load_ps(a.data())));
 }
-[[gnu::target("arch=x86-64-v4")]] inline void estimate_inverse_sqrt(const Estimable& a,
-                                                                    Estimable& estimate) {
+[[gnu::target("arch=x86-64-v4")]] inline void estimate_inverse_sqrt(
+    const Estimable16& a, Estimable16& estimate) {
     _mm512_store_ps(estimate.data(),
                     _mm512_maskz_rsqrt14_ps(0xffff, _mm512_load_ps(a.data())));
 }
-inline Estimable lane_inverse(const Estimable& a) {
-    Estimable estimate;
+inline Estimable16 lane_inverse(const Estimable16& a) {
+    Estimable16 estimate;
     estimate_inverse(a, estimate);
     return estimate * (2 - a * estimate);
 }
-inline Estimable lane_inverse_sqrt(const Estimable& a) {
-    Estimable estimate;
+inline Estimable16 lane_inverse_sqrt(const Estimable16& a) {
+    Estimable16 estimate;
     estimate_inverse_sqrt(a, estimate);
     return estimate * (1.5f - 0.5f * a * estimate * estimate);
+}
+
+template <std::size_t lanes>
+using Estimable8 = Registers<float, simd::Variant::v3, lanes>;
+template <std::size_t lanes>
+[[gnu::target("arch=x86-64-v3")]] inline void estimate_inverse(
+    const Estimable8<lanes>& a, Estimable8<lanes>& estimate) {
+    for (std::size_t i = 0; i < lanes; i += 8)
+        _mm256_store_ps(estimate.data() + i, _mm256_rcp_ps(_mm256_load_ps(a.data() + i)));
+}
+template <std::size_t lanes>
+[[gnu::target("arch=x86-64-v3")]] inline void estimate_inverse_sqrt(
+    const Estimable8<lanes>& a, Estimable8<lanes>& estimate) {
+    for (std::size_t i = 0; i < lanes; i += 8)
+        _mm256_store_ps(estimate.data() + i,
+                        _mm256_rsqrt_ps(_mm256_load_ps(a.data() + i)));
+}
+template <std::size_t lanes>
+inline Estimable8<lanes> lane_inverse(const Estimable8<lanes>& a) {
+    Estimable8<lanes> estimate;
+    estimate_inverse(a, estimate);
+    const Estimable8<lanes> rest = 1 - a * estimate;
+    return estimate + estimate * (rest + rest * rest);
+}
+template <std::size_t lanes>
+inline Estimable8<lanes> lane_inverse_sqrt(const Estimable8<lanes>& a) {
+    Estimable8<lanes> estimate;
+    estimate_inverse_sqrt(a, estimate);
+    const Estimable8<lanes> rest = 1 - a * estimate * estimate;
+    return estimate + estimate * rest * (0.5f + 0.375f * rest);
 }
 #endif
 

@@ -1,7 +1,9 @@
 #include "solver/axisymmetric/dynamics.hpp"
 #include "solver/axisymmetric/hourglass.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <type_traits>
 #include <utility>
 
 #include <fmt/core.h>
@@ -47,30 +49,31 @@ Motion motion_of(const Body& body, std::size_t cell, double dt) {
     return m;
 }
 
-/// Places of a cell's grains in one block.
-void set_lanes(material::BlockInput<float>& input, std::size_t first, std::size_t count,
+/// Places of a cell's `count` grains in one block.
+template <std::size_t count>
+void set_lanes(material::BlockInput<float>& input, std::size_t first,
                const Motion& motion, double density, double temperature, double shear) {
-    for (std::size_t lane = first; lane < first + count; ++lane) {
-        input.velocity_gradient[0][lane] = static_cast<float>(motion.rr);
-        input.velocity_gradient[2][lane] = static_cast<float>(motion.rz);
-        input.velocity_gradient[4][lane] = static_cast<float>(motion.tt);
-        input.velocity_gradient[6][lane] = static_cast<float>(motion.zr);
-        input.velocity_gradient[8][lane] = static_cast<float>(motion.zz);
-        input.density[lane] = static_cast<float>(density);
-        input.temperature[lane] = static_cast<float>(temperature);
-        input.shear_modulus[lane] = static_cast<float>(shear);
-    }
+    const auto fill = [first](Lanes<float>& block, double value) {
+        std::fill_n(block.data() + first, count, static_cast<float>(value));
+    };
+    const double gradient[9] = {motion.rr, 0,         motion.rz, 0,        motion.tt,
+                                0,         motion.zr, 0,         motion.zz};
+    for (std::size_t i = 0; i < 9; ++i) fill(input.velocity_gradient[i], gradient[i]);
+    fill(input.density, density);
+    fill(input.temperature, temperature);
+    fill(input.shear_modulus, shear);
 }
 
 /// Sum of `count` lanes (a power of two), by halves.
-double sum_of(Lanes<float> values, std::size_t first, std::size_t count) {
-    std::array<double, lanes> part;
-    for (std::size_t lane = 0; lane < lanes; ++lane)
-        part[lane] = static_cast<double>(values[lane]);
+template <std::size_t count>
+double sum_of(const Lanes<float>& values, std::size_t first) {
+    std::array<double, count> part;
+    for (std::size_t lane = 0; lane < count; ++lane)
+        part[lane] = static_cast<double>(values.data()[first + lane]);
+#pragma GCC unroll 4
     for (std::size_t half = count / 2; half > 0; half /= 2)
-        for (std::size_t lane = first; lane < first + half; ++lane)
-            part[lane] += part[lane + half];
-    return part[first];
+        for (std::size_t lane = 0; lane < half; ++lane) part[lane] += part[lane + half];
+    return part[0];
 }
 
 /// Sums over a cell's grains in one block.
@@ -78,13 +81,13 @@ struct GrainSum {
     std::array<double, 4> deviator{};  ///< rr, tt, zz, rz
     double plastic_power = 0;
     double plastic_rate = 0;
-    void add(const material::BlockOutput<float>& output, std::size_t first,
-             std::size_t count) {
+    template <std::size_t count>
+    void add(const material::BlockOutput<float>& output, std::size_t first) {
         constexpr std::array<std::size_t, 4> place = {0, 1, 2, 4};
         for (std::size_t i = 0; i < 4; ++i)
-            deviator[i] += sum_of(output.stress_deviator[place[i]], first, count);
-        plastic_power += sum_of(output.plastic_power, first, count);
-        plastic_rate += sum_of(output.plastic_rate, first, count);
+            deviator[i] += sum_of<count>(output.stress_deviator[place[i]], first);
+        plastic_power += sum_of<count>(output.plastic_power, first);
+        plastic_rate += sum_of<count>(output.plastic_rate, first);
     }
     void divide(std::size_t grains) {
         const double share = 1 / static_cast<double>(grains);
@@ -144,16 +147,18 @@ void close_energy(Body& body, std::size_t c, const Motion& m, const GrainSum& me
         cell_volume;
 }
 
+/// `grains_a_block` of each cell's grains lie in one block: all of a cell, or a blockful.
+template <std::size_t grains_a_block>
 std::string update_group(Body& body, std::size_t first, std::size_t last) {
     const std::size_t grains = static_cast<std::size_t>(body.numerics.grains_per_point);
-    const std::size_t blocks_a_cell = grains > lanes ? grains / lanes : 1;
-    const std::size_t grains_a_block = std::min(grains, lanes);
+    const std::size_t blocks_a_cell = grains / grains_a_block;
     const double dt = body.cell_step[first];
 
-    material::BlockInput<float> input{};
+    material::BlockInput<float> input;
+    if (last - first < lanes / grains_a_block) input = {};  // lanes without a grain
     input.time_step = static_cast<float>(dt);
     material::BlockOutput<float> output;
-    std::array<Motion, lanes> motion;
+    std::array<Motion, lanes / grains_a_block> motion;
     for (std::size_t c = first; c < last; ++c) {
         Motion& m = motion[c - first];
         m = motion_of(body, c, dt);
@@ -170,17 +175,18 @@ std::string update_group(Body& body, std::size_t first, std::size_t last) {
         const double density = body.cell_mass[c] / m.ring.volume;
         const double modulus =
             body.equation_of_state->at(density, body.energy[c]).bulk_modulus;
-        set_lanes(input, (c - first) * grains_a_block, grains_a_block, m, density,
-                  body.thermo[c].temperature,
-                  material::shear_modulus(modulus, body.parameters.poisson_ratio));
+        set_lanes<grains_a_block>(
+            input, (c - first) * grains_a_block, m, density, body.thermo[c].temperature,
+            material::shear_modulus(modulus, body.parameters.poisson_ratio));
     }
     body.clock.mark(impact::Phase::gradients);
-    std::array<GrainSum, lanes> sum{};
+    std::array<GrainSum, lanes / grains_a_block> sum;
     const std::size_t first_block = first * grains / lanes;
     for (std::size_t b = 0; b < blocks_a_cell; ++b) {
         body.strength->update(first_block + b, input, output);
         for (std::size_t c = first; c < last; ++c)
-            sum[c - first].add(output, (c - first) * grains_a_block, grains_a_block);
+            sum[c - first].template add<grains_a_block>(output,
+                                                        (c - first) * grains_a_block);
     }
     body.clock.mark(impact::Phase::plasticity);
     for (std::size_t c = first; c < last; ++c) {
@@ -204,7 +210,28 @@ std::string update_group(Body& body, std::size_t first, std::size_t last) {
 
 std::string update_cells(Body& body, std::size_t first, std::size_t last) {
     std::string trouble;
-    simd::run([&](auto) { trouble = update_group(body, first, last); });
+    const auto update = [&](auto grains_a_block) {
+        simd::run([&](auto) {
+            trouble = update_group<grains_a_block.value>(body, first, last);
+        });
+    };
+    // Sums and copies over a constant number of lanes take vectors.
+    switch (body.numerics.grains_per_point) {
+        case 1:
+            update(std::integral_constant<std::size_t, 1>());
+            break;
+        case 2:
+            update(std::integral_constant<std::size_t, 2>());
+            break;
+        case 4:
+            update(std::integral_constant<std::size_t, 4>());
+            break;
+        case 8:
+            update(std::integral_constant<std::size_t, 8>());
+            break;
+        default:
+            update(std::integral_constant<std::size_t, lanes>());
+    }
     return trouble;
 }
 

@@ -2,10 +2,8 @@
 
 #include "solver/material/crystal_frame.hpp"
 #include "solver/material/dislocation_hooks.hpp"
-#include "solver/material/line_search.hpp"
 #include "solver/material/microstructure.hpp"
-#include "solver/material/mobility.hpp"
-#include "solver/material/symmetric_solve.hpp"
+#include "solver/material/slip_equations.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -22,14 +20,6 @@ template <class Real>
 constexpr double largest_growth = sizeof(Real) == 4 ? 0.04 : 0.01;
 // A step is never cut into more than about as many substeps.
 constexpr double most_substeps = 200;
-constexpr int largest_iteration_count = 100;
-// From this iteration on roots of the drag law are exact and steps may only improve.
-constexpr int first_careful_iteration = 12;
-
-template <class V>
-inline V resolve(const std::array<typename V::Lane, 5>& m, const V (&e)[5]) {
-    return m[0] * e[0] + m[1] * e[1] + m[2] * e[2] + m[3] * e[3] + m[4] * e[4];
-}
 
 template <class V>
 double largest_lane(const V& values) {
@@ -38,9 +28,6 @@ double largest_lane(const V& values) {
         largest = std::max(largest, static_cast<double>(values[lane]));
     return largest;
 }
-
-template <class Real>
-constexpr Real strain_tolerance = sizeof(Real) == 4 ? Real(5e-7) : Real(1e-12);
 
 }  // namespace
 
@@ -169,8 +156,8 @@ bool DislocationStrength<Real, variant>::is_elastic(const Block& block,
     for (int k = 0; k < 5; ++k)
         trial[k] = block.elastic[k] + step.duration * step.rate[k];
     V largest = {};
-    for (const auto& m : rounded_schmid_tensors<Real>)
-        largest = lane_max(largest, lane_abs(resolve(m, trial)));
+    for_each_slip_system(
+        [&](auto d) { largest = lane_max(largest, lane_abs(resolve<d.value>(trial))); });
     const V threshold = hardening(block, step.shear_modulus) / 2;
     return !any_lane(2 * step.shear_modulus * largest > threshold);
 }
@@ -224,66 +211,31 @@ void DislocationStrength<Real, variant>::solve_stress(Block& block, const Step& 
     const V scale = b / (step.sound_speed * step.drag);  // zeta per Pa of excess stress
     const V slope_scale = dt * b * step.sound_speed * scale * two_g;
 
-    V trial[5];
-    V e[5];
-    for (int k = 0; k < 5; ++k) {
-        trial[k] = block.elastic[k] + dt * step.rate[k];
-        e[k] = block.elastic[k];
-    }
-    V slip_strain[5];
-    LineSearch<V> search;
-    for (int iteration = 0; iteration < largest_iteration_count; ++iteration) {
-        const bool careful = iteration >= first_careful_iteration;
-        if (iteration == first_careful_iteration)
-            std::copy(block.elastic, block.elastic + 5, e);
-        V jacobian[15] = {};  // lower triangle of I + dt 2G sum_d rhoD dV/dX b^2 M M
-        V residual[5];
-        for (int k = 0; k < 5; ++k) slip_strain[k] = V{};
+    for (std::size_t part = 0; part < V::parts; ++part) {
+        SlipEquations<typename V::One> equations;
+        equations.two_g = two_g.one(part);
+        equations.threshold = threshold.one(part);
+        equations.scale = scale.one(part);
+        equations.sound_speed = step.sound_speed.one(part);
+        equations.slope_scale = slope_scale.one(part);
+        equations.slip_scale = step.duration * b;
+        for (int k = 0; k < 5; ++k) {
+            equations.old[k] = block.elastic[k].one(part);
+            equations.trial[k] =
+                equations.old[k] + step.duration * step.rate[k].one(part);
+        }
         for (std::size_t d = 0; d < slip_system_count; ++d) {
-            const std::array<Real, 5>& m = rounded_schmid_tensors<Real>[d];
-            const V resolved = two_g * resolve(m, e);
-            const V excess = lane_max(lane_abs(resolved) - threshold, V{});
-            const V zeta = scale * excess;
-            V steepness, z;
-            if (careful) {
-                find_drag_root(zeta, z);
-                steepness = drag_steepness(z);
-            } else {
-                steepness = drag_steepness(block.drag_root[d]);
-                z = drag_root_step(zeta, block.drag_root[d], steepness);
-            }
-            const V contraction = drag_contraction(z);
-            const V speed = step.sound_speed * z * contraction;
-            const V rate = b * block.mobile[d] * speed;
-            slip.speed[d] = speed;
-            slip.force[d] = b * excess;
-            block.drag_root[d] = lane_select(excess > 0, z, V{});
-            V slope = slope_scale * block.mobile[d] * steepness * contraction *
-                      contraction * contraction;
-            slope = lane_select(excess > 0, slope, V{});
-            const V strain = dt * lane_select(resolved < 0, -rate, rate);
-            for (std::size_t i = 0; i < 5; ++i) {
-                slip_strain[i] += m[i] * strain;
-                const V row = m[i] * slope;
-                for (std::size_t j = 0; j <= i; ++j)
-                    jacobian[i * (i + 1) / 2 + j] += row * m[j];
-            }
+            equations.mobile[d] = block.mobile[d].one(part);
+            equations.root[d] = block.drag_root[d].one(part);
         }
-        for (int k = 0; k < 5; ++k) {
-            jacobian[k * (k + 1) / 2 + k] += 1;
-            residual[k] = trial[k] - slip_strain[k] - e[k];
+        equations.solve();
+        for (int k = 0; k < 5; ++k) outcome.elastic[k].set_one(part, equations.e[k]);
+        for (std::size_t d = 0; d < slip_system_count; ++d) {
+            block.drag_root[d].set_one(part, equations.root[d]);
+            slip.speed[d].set_one(part, equations.speed[d]);
+            slip.force[d].set_one(part, b * equations.excess[d]);
         }
-        if (careful) search.turn_back(e, residual);
-        solve_symmetric<5>(jacobian, residual);
-        V change = {};
-        for (int k = 0; k < 5; ++k) {
-            const V next = search.step(k, e[k], residual[k]);
-            change = lane_max(change, lane_abs(next - e[k]));
-            e[k] = next;
-        }
-        if (!any_lane(change > strain_tolerance<Real>)) break;
     }
-    std::copy(e, e + 5, outcome.elastic);
 }
 
 /// Kinetics of Eqs. 15-19 and the annihilated energy of Eq. 21, sinks implicit.

@@ -3,6 +3,8 @@
 #include <array>
 #include <cstddef>
 #include <numbers>
+#include <type_traits>
+#include <utility>
 
 #include <Eigen/Core>
 
@@ -49,5 +51,26 @@ inline constexpr std::array<std::array<Real, 5>, slip_system_count>
                 rounded[d][k] = static_cast<Real>(schmid_tensors[d][k]);
         return rounded;
     }();
+
+/// Calls work(std::integral_constant<std::size_t, d>()) for every system d: compilers
+/// leave out what the zeros of a tensor known to them multiply.
+template <class Work>
+inline void for_each_slip_system(const Work& work) {
+    [&]<std::size_t... d>(std::index_sequence<d...>) {
+        (work(std::integral_constant<std::size_t, d>()), ...);
+    }
+    (std::make_index_sequence<slip_system_count>());
+}
+
+/// M^d : A of a deviator.
+template <std::size_t d, class V>
+inline V resolve(const V (&deviator)[5]) {
+    constexpr auto& m = rounded_schmid_tensors<typename V::Lane>[d];
+    V sum = 0;
+#pragma GCC unroll 5
+    for (std::size_t k = 0; k < m.size(); ++k)
+        if (m[k] != 0) sum += m[k] * deviator[k];
+    return sum;
+}
 
 }  // namespace taylorcal::material

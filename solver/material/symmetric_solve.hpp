@@ -1,5 +1,7 @@
 #pragma once
 
+#include "common/lanes.hpp"
+
 namespace taylorcal::material {
 
 /// Solves A x = b lane by lane for a symmetric positive definite A of order n, given by
@@ -19,7 +21,7 @@ inline void solve_symmetric(Vector (&a)[n * (n + 1) / 2], Vector (&b)[n]) {
             diagonal -= l * a[at(j, k)];
             a[at(j, k)] = l;
         }
-        inverse[j] = 1 / diagonal;
+        inverse[j] = lane_inverse(diagonal);
 #pragma GCC unroll 8
         for (int i = j + 1; i < n; ++i) {
             Vector sum = a[at(i, j)];

@@ -47,15 +47,15 @@ def points(rows: list[dict], points_per_shape: int) -> list[dict]:
 
 
 def amplitude(candidate: dict, typical: float, turn: int) -> float:
-    """Value less base: typical, half the range, typical the other way, the whole range.
+    """Value less base: typical, a third of it, and both the other way.
 
-    An effect of one sign only keeps it. Four levels show the curvature.
+    An effect of one sign only keeps it. Several levels show the curvature; none goes far
+    beyond the prior, where sizes are no longer linear in the amplitude and runs are long.
     """
     above = candidate["highest"] - candidate["base"]
     below = candidate["lowest"] - candidate["base"]
-    other = below if candidate["signed"] and below < 0 else above
     back = -typical if candidate["signed"] and below < 0 else typical
-    level = [typical, above / 2, back, other][turn % 4]
+    level = [typical, typical / 3, back, back / 3][turn % 4]
     return float(np.clip(level, below, above))
 
 

@@ -18,9 +18,9 @@ Effect anvil_friction() {
         .needs_dislocations = false,
         .description = "Coulomb friction of the impact face on the anvil",
         .source =
-            "Rodionov 2023 rejects 0.05 for polished anvils; dry copper on steel slides "
-            "at "
-            "0.3 to 0.5 (Bowden and Tabor 1950)",
+            "Rodionov 2023: 0.05 and above contradict the measured shape (uniform "
+            "cylinder, 117.6 m/s). Tables of slow dry sliding, copper on steel: 0.21 to "
+            "0.36, at rest 0.23 to 0.53. The prior's width is a judgement",
         .apply =
             [](impact::ImpactCase& impact_case, double friction) {
                 impact_case.additions.friction_coefficient = friction;

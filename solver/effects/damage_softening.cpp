@@ -21,7 +21,10 @@ Effect damage_softening() {
         .needs_dislocations = true,
         .description =
             "the weakened volume fraction carries less; at 1 it carries nothing",
-        .source = "Rodionov 2023, Eq. 24 and its up to 35 %; 1 is the rule of mixtures",
+        .source =
+            "Rodionov 2023: Eq. 24, up to 35 % (3-mm head at 122 m/s); 1 is the rule of "
+            "mixtures. That weakened volume carries less, range and prior are a "
+            "judgement, no source",
         .apply =
             [](impact::ImpactCase& impact_case, double loss) {
                 const material::Parameters parameters = impact_case.material;

@@ -22,13 +22,14 @@ Effect elastic_anvil() {
         .geometries = both_geometries,
         .needs_dislocations = false,
         .description =
-            "the anvil yields elastically: 1 is plane waves radiated into steel, which a "
-            "rod "
-            "of the specimen's width gives; less in a wide block, that supports the spot",
+            "the anvil yields elastically: 1 is plane waves radiated into steel, nearly "
+            "what a rod of the specimen's width gives; less in a wide block, that "
+            "supports the spot",
         .source =
-            "plane waves in steel; a block of ten times the width holds a tenth and less "
-            "of "
-            "it after the first microsecond (half space, Johnson 1985)",
+            "judgement. Waves in steel: 5900 m/s (5870 to 5920 in tables). Estimate for "
+            "a thick block: under a spot of 4 mm radius a half space (E = 210 GPa) "
+            "yields at most what plane waves do in 1.4 us, a share of 0.14 after 10 us "
+            "and 0.03 after 50 us. Forde et al. 2009: no anvil is rigid",
         .apply =
             [](impact::ImpactCase& impact_case, double share) {
                 impact_case.additions.anvil_compliance = share / steel_impedance;

@@ -20,7 +20,11 @@ Effect hall_petch() {
         .geometries = both_geometries,
         .needs_dislocations = true,
         .description = "hardening by the boundaries that grain refinement makes",
-        .source = "Hall 1951, Petch 1953; copper 0.12 MPa m^0.5 (Smith and Hashemi 2006)",
+        .source =
+            "the law: Hall 1951, Petch 1953 (reviewed by Naik and Walley 2020). 0.12 MPa "
+            "m^0.5 is quoted for copper in tension (Smith and Hashemi 2006, not "
+            "checked); as Ys is the tensile stress over 1.53 (Taylor factor 3.06, "
+            "threshold Ys/2), kHP would be 0.08. Range: judgement",
         .apply =
             [](impact::ImpactCase& impact_case, double coefficient) {
                 const material::Parameters parameters = impact_case.material;

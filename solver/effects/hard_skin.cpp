@@ -47,9 +47,10 @@ Effect hard_skin() {
         .description =
             "the tool has work-hardened the surface, the skin decays over 0.2 mm",
         .source =
-            "turned copper is harder by a half to twice within 0.1 to 0.3 mm (reviewed "
-            "in "
-            "Jawahir et al. 2011); hardness goes with the root of the density",
+            "judgement, no measured skin of turned copper was found. 1.5 dex make "
+            "annealed strip a hard one (0.2 % proof stress 48 and 265 MPa, Smithells, "
+            "Table 22.7; density as the square of stress); a rod that is hard already "
+            "has less to gain. The depth is assumed",
         .apply =
             [](impact::ImpactCase& impact_case, double excess_dex) {
                 const specimen::Shape shape = impact_case.shape;

@@ -40,7 +40,10 @@ Effect rod_texture() {
         .geometries = both_geometries,
         .needs_dislocations = true,
         .description = "double fibre texture of drawn and extruded rods",
-        .source = "English and Chin 1965: drawn copper, <111> and <100> at about 60:40",
+        .source =
+            "drawn copper, 60 % <111> and 40 % <100>: Schmid and Wassermann 1927, quoted "
+            "by Kuczynski 1950 (Nature 165, 562). What share of a rod's grains is so "
+            "turned is a judgement, no source",
         .apply =
             [](impact::ImpactCase& impact_case, double share) {
                 impact_case.additions.orientations.push_back(

@@ -22,7 +22,9 @@ Effect thermal_softening() {
             "slip resistance falls with temperature; 1 leaves none at melting (Tm is "
             "jc_melting_temperature, T0 reference_temperature)",
         .source =
-            "Johnson and Cook 1983: copper loses its strength nearly linearly, m = 1.09",
+            "OFHC copper of Johnson and Cook 1983: all strength lost at 1356 K, m = "
+            "1.09, nearly the straight line of amplitude 1. The prior's width is a "
+            "judgement",
         .apply =
             [](impact::ImpactCase& impact_case, double share) {
                 const double cold = impact_case.material.reference_temperature;

@@ -18,7 +18,8 @@ Effect velocity_bias() {
         .needs_dislocations = false,
         .description =
             "calibration error of the velocity measurement, the same for all shots",
-        .source = "1 %, as the velocity error of a shot that states none",
+        .source =
+            "judgement, no source: 1 %, as the velocity error of a shot that states none",
         .apply = [](impact::ImpactCase& impact_case,
                     double share) { impact_case.velocity_m_s *= 1 + share; },
     };

@@ -1,6 +1,7 @@
 """Reads and checks a table of measured shots; messages name the file, line and column."""
 
 import csv
+import io
 import math
 from pathlib import Path
 
@@ -8,19 +9,25 @@ from input_errors import InputError
 from schema_check import fill_defaults, findings, load_schema
 from study import DESIGN_RANGES, OUTLINE_SCORES
 
+SEPARATORS = {",": "comma", ";": "semicolon", "\t": "tab"}
 FAR_OFF = 5  # standard errors from which a size is a slip of the pen
 
 
 def read_measurements(path: Path) -> list[dict]:
     """The rows with numbers as floats, empty cells left out and `line` added."""
-    schema = load_schema("measurements")
     header, records = read_cells(path, "one row a shot")
+    return checked_rows(path, header, records)
+
+
+def checked_rows(path: Path, header: list[str], records: list[tuple[int, list[str]]]) -> list[dict]:
+    """The same of cells that were read from `path` already, as `read_cells` gives them."""
+    schema = load_schema("measurements")
     problems = [
         f"{path}, line 1: column {key[0]} {text}"
         for key, text in findings({name: None for name in header}, _header_schema(schema))
     ]
     if problems:
-        raise InputError("\n".join(problems))
+        raise InputError("\n".join(dict.fromkeys(problems)))
     rows, first_line = [], {}
     for line, cells in records:
         row, wrong = _typed(dict(zip(header, cells, strict=True)), schema)
@@ -42,21 +49,8 @@ def check_against_study(rows: list[dict], study: dict, path: Path) -> None:
     """The rows that are used must lie where the database will have runs."""
     problems = []
     for row in rows:
-        if row["use"] == "ignore":
-            continue
         place = f"{path}, line {row['line']}: {row['id']}:"
-        if row["shape"] not in study["database"]["shapes"]:
-            problems.append(f"{place} shape {row['shape']!r} is not in database.shapes.")
-        ratio = row["initial_length_mm"] / row["initial_diameter_mm"]
-        values = {**row, "length_to_diameter": ratio}
-        for key in DESIGN_RANGES:
-            lowest, highest = study["database"][key]
-            slack = 1e-9 * highest
-            if not lowest - slack <= values[key] <= highest + slack:
-                problems.append(
-                    f"{place} {key} = {values[key]:g} is outside the database ({lowest:g} to "
-                    f"{highest:g}). Widen database.{key} in study.yaml or set `use` to ignore."
-                )
+        problems += [f"{place} {problem}" for problem in beyond_database(row, study)]
     fitted = [row for row in rows if row["use"] == "calibrate"]
     if not fitted:
         problems.append(f"{path}: no row has `use` = calibrate (expected at least one).")
@@ -70,27 +64,62 @@ def check_against_study(rows: list[dict], study: dict, path: Path) -> None:
         raise InputError("\n".join(problems))
 
 
+def beyond_database(row: dict, study: dict) -> list[str]:
+    """What of a row in use lies where the database will have no runs, and the remedy."""
+    if row["use"] == "ignore":
+        return []
+    found = []
+    if row["shape"] not in study["database"]["shapes"]:
+        found.append(f"shape {row['shape']!r} is not in database.shapes.")
+    values = {**row, "length_to_diameter": row["initial_length_mm"] / row["initial_diameter_mm"]}
+    for key in DESIGN_RANGES:
+        lowest, highest = study["database"][key]
+        slack = 1e-9 * highest
+        if not lowest - slack <= values[key] <= highest + slack:
+            found.append(
+                f"{key} = {values[key]:g} is outside the database ({lowest:g} to {highest:g}). "
+                f"Widen database.{key} in study.yaml or set `use` to ignore."
+            )
+    return found
+
+
 def read_cells(path: Path, rows: str) -> tuple[list[str], list[tuple[int, list[str]]]]:
     """The header and (line, cells) of each row; `rows` says in messages what a row is."""
+    return split_cells(path, read_text(path, "utf-8-sig"), ",", rows)
+
+
+def read_text(path: Path, encoding: str) -> str:
+    """The text with its line ends as they are."""
     try:
-        with path.open(newline="", encoding="utf-8-sig") as file:
-            reader = csv.reader(file, strict=True)
-            table = [(reader.line_num, cells) for cells in reader if any(cells)]
+        with path.open(newline="", encoding=encoding) as file:
+            return file.read()
     except OSError as error:
         raise InputError(f"{path}: cannot be read ({error.strerror}).") from error
-    except (csv.Error, UnicodeDecodeError) as error:
-        raise InputError(f"{path}: is not a comma-separated table: {error}.") from error
+    except UnicodeDecodeError as error:
+        raise InputError(f"{path}: is not text in UTF-8: {error}.") from error
+
+
+def split_cells(
+    path: Path, text: str, separator: str, rows: str
+) -> tuple[list[str], list[tuple[int, list[str]]]]:
+    """As `read_cells`, of the text of `path` with cells between separators."""
+    name = SEPARATORS[separator]
+    try:
+        reader = csv.reader(io.StringIO(text, newline=""), delimiter=separator, strict=True)
+        table = [(reader.line_num, cells) for cells in reader if any(cells)]
+    except csv.Error as error:
+        raise InputError(f"{path}: is not a {name}-separated table: {error}.") from error
     if not table:
         raise InputError(f"{path}: the table is empty (expected a header and {rows}).")
     header = [name.strip() for name in table[0][1]]
-    for name in header:
-        if header.count(name) > 1:
-            raise InputError(f"{path}, line 1: column {name!r} is there twice.")
+    for column in header:
+        if header.count(column) > 1:
+            raise InputError(f"{path}, line 1: column {column!r} is there twice.")
     for line, cells in table[1:]:
         if len(cells) != len(header):
             raise InputError(
                 f"{path}, line {line}: {len(cells)} cells (expected {len(header)}, as in the "
-                "header). Put a text with commas in quotes."
+                f"header). Put a text with {name}s in quotes, and write decimal points."
             )
     return header, table[1:]
 

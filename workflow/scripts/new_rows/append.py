@@ -1,0 +1,48 @@
+"""Appends rows to a table so that it is whole at any moment, and keeps what is there."""
+
+import csv
+import io
+import os
+import shutil
+from pathlib import Path
+
+from input_errors import InputError
+from measurements import read_cells, read_measurements
+
+
+def arranged(path: Path, header: list[str], cells: list[str]) -> list[str]:
+    """The cells of a row in the order of the table's own columns; InputError if it lacks one."""
+    table_header, _ = read_cells(path, "one row a shot")
+    given = dict(zip(header, cells, strict=True))
+    for name, cell in given.items():
+        if cell and name not in table_header:
+            raise InputError(
+                f"{path}, line 1: the table has no column {name}, which the new rows fill in "
+                f"({cell}). Add it to the table's header, with empty cells below, or leave it out."
+            )
+    return [given.get(name, "") for name in table_header]
+
+
+def with_rows(content: bytes, rows: list[list[str]]) -> bytes:
+    """The table with the rows below, its bytes as they were, with its own kind of line end."""
+    end = "\r\n" if content.partition(b"\n")[0].endswith(b"\r") else "\n"
+    text = io.StringIO(newline="")
+    csv.writer(text, lineterminator=end).writerows(rows)
+    gap = b"" if content.endswith(b"\n") else end.encode()
+    return content + gap + text.getvalue().encode("utf-8")
+
+
+def append_rows(path: Path, rows: list[list[str]]) -> None:
+    """Writes the longer table beside the old one, reads it back, and puts it in its place."""
+    path = path.resolve()  # a link stays a link
+    partial = path.with_name(path.name + ".tmp")
+    with partial.open("wb") as file:
+        file.write(with_rows(path.read_bytes(), rows))
+        file.flush()
+        os.fsync(file.fileno())
+    shutil.copymode(path, partial)
+    read_measurements(partial)
+    os.replace(partial, path)
+    folder = os.open(path.parent, os.O_RDONLY)
+    os.fsync(folder)  # the new name, too, is on the disk
+    os.close(folder)

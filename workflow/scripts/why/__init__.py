@@ -1,0 +1,1 @@
+"""Why Snakemake would run a stage of a study, in words."""

@@ -1,0 +1,108 @@
+"""Turns Snakemake's reasons into causes that a user of the study knows."""
+
+import re
+from pathlib import Path
+
+from effects import solver_list
+from revisions import split_home
+from study import STAGE_SETTINGS, at_revision, design_settings
+from why.changes import recorded_settings, settings_changes, table_changes
+from why.plan import Job
+
+RULES = Path("workflow") / "rules"
+LISTED = 3  # files or changes named in a line; the rest are counted
+
+
+class Causes:
+    """The causes of one study's jobs; `table` and `rows` are its measurements."""
+
+    def __init__(self, study: dict, table: Path, rows: list[dict], jobs: list[Job]):
+        self.study, self.table, self.rows = study, table, rows
+        self.makers = {file: job for job in jobs for file in job.outputs}
+
+    def own(self, job: Job, kind: str, files: list[str]) -> list[str]:
+        """What made a job necessary itself; nothing for what follows from other jobs."""
+        if kind == "follows":
+            return []
+        if kind == "missing":
+            return [f"its result is not there: {listed(files)}"]
+        if kind == "interrupted":
+            return [f"it was interrupted: {listed(files)}"]
+        if kind == "newer":
+            return [cause for file in files for cause in self._of_file(job, file)]
+        if kind == "files":
+            return ["other files go into it than before"]
+        if kind == "code":
+            return [_of_code(job)]
+        if kind == "settings":
+            return [self._of_design(job)]
+        return [f"snakemake says: {kind}"]
+
+    def of_settings(self, file: str) -> list[str]:
+        """Of a stage whose settings file is written anew: which settings differ."""
+        maker, before = self.makers[file], recorded_settings(file)
+        if before is None or not Path(file).exists():
+            return [f"its settings are not there: {file}"]
+        stage, home = maker.wildcards["stage"], maker.wildcards["study"]
+        changes = settings_changes(before, STAGE_SETTINGS[stage](self._study_at(home)))
+        if changes:
+            return [f"its settings in study.yaml changed: {listed(changes)}"]
+        own = [
+            cause for kind, files in maker.reasons.items() for cause in self.own(maker, kind, files)
+        ]
+        return [f"its settings are written anew: {cause}" for cause in own]
+
+    def masked(self, job: Job, told: list[str]) -> list[str]:
+        """Rows that changed where Snakemake stopped at its first reason."""
+        if job.rule != "sample" or any("measurements" in cause for cause in told):
+            return []
+        return self._of_table(job)
+
+    def _of_file(self, job: Job, file: str) -> list[str]:
+        path = Path(file)
+        if path == self.table:
+            unseen = "though no number that is fitted did" if self._comparison(job).exists() else ""
+            return self._of_table(job) or [f"{file} changed {unseen}".strip()]
+        if path.is_relative_to("build/bin"):
+            return [f"the program {path.name} was rebuilt"]
+        if path.is_relative_to("workflow/report"):
+            return [f"the page's template {file} changed"]
+        if path.is_relative_to(self.table.parent):
+            return [f"the measured outline {file} changed"]
+        return [f"{file} is newer than it"]
+
+    def _of_table(self, job: Job) -> list[str]:
+        sizes = self.study["calibration"]["fit_sizes"]
+        changes = table_changes(self.rows, self._comparison(job), sizes)
+        return [f"the measurements changed: {listed(changes)}"] if changes else []
+
+    def _comparison(self, job: Job) -> Path:
+        return Path("results") / job.wildcards["study"] / "comparison.json"
+
+    def _of_design(self, job: Job) -> str:
+        before = recorded_settings(job.outputs[0]) if job.rule == "design" else None
+        if before is None:
+            return "its share of the runs, or another setting in study.yaml, changed"
+        changes = settings_changes(before, design_settings(self._study_at(job.wildcards["study"])))
+        return f"the database that study.yaml asks for changed: {listed(changes)}"
+
+    def _study_at(self, home: str) -> dict:
+        effects = split_home(home)[1]
+        known = solver_list("effects") if effects else {}
+        return at_revision(self.study, [known[name] for name in effects])
+
+
+def _of_code(job: Job) -> str:
+    if job.has_command:
+        return f"its command changed: the rule {job.rule} in {RULES}"
+    text = "".join(path.read_text(encoding="utf-8") for path in sorted(RULES.glob("*.smk")))
+    found = re.search(
+        rf"^rule {job.rule}:(?:(?!^rule ).)*?/scripts/([\w/]+\.py)", text, re.M | re.S
+    )
+    script = f"workflow/scripts/{found[1]}" if found else "its script"
+    return f"{script} changed, or was checked out anew, after the result"
+
+
+def listed(items: list[str]) -> str:
+    more = len(items) - LISTED
+    return ", ".join(items[:LISTED]) + (f" and {more} more" if more > 0 else "")

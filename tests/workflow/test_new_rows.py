@@ -105,6 +105,9 @@ def test_a_new_lot_is_compared_with_the_nearest_known_one(studied):
     text = addition_words(addition)
     assert "lot 'third' is new" in text and "a slip of the pen?" in text
     assert addition.refusals(accept_outliers=False) == [], "its metal may be softer than any"
+    append_rows(addition.table, addition.cells)
+    again = examined(studied, GOOD.replace("b2,second", "c1,third"))
+    assert again.shots[0].prediction.stand_in == "second", "its lot has still no parameters"
 
 
 @pytest.mark.parametrize(

@@ -90,7 +90,7 @@ def _outline_problems(row: dict, study: dict, table: Path) -> list[str]:
     try:
         check_outlines([row], study, table)
     except InputError as error:
-        return [str(error)]
+        return [str(error).removeprefix(f"{table}, line {row['line']}: ")]
     return []
 
 

@@ -82,6 +82,8 @@ def predictions(
     header, records = read_cells(fitted, "one row a shot")
     table = [dict(zip(header, texts, strict=True)) for _, texts in records]
     lots = lots_of_posterior(home)
+    # Rows of lots that joined the table since would ask for parameters that are not there.
+    table = [shot for shot in table if not lots or shot["lot"].strip() in lots]
     asked = {}  # name in the table of this comparison: the shot and the lot it is taken for
     for row, texts in zip(rows, cells, strict=True):
         for lot in [row["lot"]] if row["lot"] in lots or not lots else lots:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-SEED = 20230816
+SEED = 20261125
 SETS = 6
 NULLS_A_SET = 18
 CORRUPTED = 12

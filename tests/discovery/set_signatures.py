@@ -23,7 +23,6 @@ from refit import read_table
 from specimens import TRUTHS
 
 POINTS_A_SHAPE = 9
-FINER_STEP = 2  # every other point is computed at the next finer fidelity too
 SEED = 77
 # Amplitudes of the pairs: this many standard errors, or the usual one where that is less. What
 # is hidden lies in their range; far beyond it sizes are no longer linear in the amplitude.
@@ -80,9 +79,7 @@ def main() -> None:
     rows = read_measurements(options.measurements)
     pairs = pair_design(rows, draws, candidates, amplitudes)
     write_design(options.design, pairs)
-    plain = base_rows(pairs, len(candidates))
-    every_other = {key: values[::FINER_STEP] for key, values in plain.items() if key != "names"}
-    write_design(options.finer, {**every_other, "names": plain["names"]})
+    write_design(options.finer, base_rows(pairs, len(candidates)))
 
 
 if __name__ == "__main__":

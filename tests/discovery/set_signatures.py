@@ -24,9 +24,10 @@ from specimens import TRUTHS
 
 POINTS_A_SHAPE = 9
 SEED = 77
-# Amplitudes of the pairs: this many standard errors, or the usual one where that is less. What
-# is hidden lies in their range; far beyond it sizes are no longer linear in the amplitude.
+# Amplitudes of the pairs: this many standard errors of the measurements, as far as the range
+# allows. What is hidden lies below; far beyond it sizes are no longer linear in the amplitude.
 SIGMAS = 12
+WITHIN = 0.95  # share of a range that is used
 SHARES = (0.5, 1.0)  # in turn, so that a curvature shows
 
 
@@ -34,9 +35,10 @@ def pair_amplitudes(candidates, table: SignalTable, signatures) -> list[float]:
     """One a candidate, with the sign of its usual one."""
     found = []
     for candidate in candidates:
+        sign = np.sign(candidate["typical"])
         visible = visible_amplitude(table, signatures, candidate, SIGMAS)
-        usual = candidate["typical"]
-        found.append(float(np.sign(usual) * min(abs(usual), visible)))
+        end = candidate["highest"] if sign > 0 else candidate["lowest"]
+        found.append(float(sign * min(visible, WITHIN * abs(end - candidate["base"]))))
     return found
 
 

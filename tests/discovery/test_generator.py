@@ -116,7 +116,7 @@ def test_amplitudes_reach_the_signal_asked_for(made):
     """In a study whose effects are linear the runs' signal is what was aimed at."""
     for _, _, truth in of_kind(made, "effect"):
         if truth["strength"] == SIX_SIGMA:
-            assert truth["signal_sd"] == pytest.approx(7, rel=0.05)
+            assert truth["signal_sd"] == pytest.approx(10, rel=0.05)
 
 
 def test_a_plain_table_hides_nothing(made):

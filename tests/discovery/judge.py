@@ -46,13 +46,28 @@ class Case:
 
     @property
     def is_visible(self) -> bool:
-        return self.truth["signal_sd"] >= VISIBLE
+        return self.signal_sd >= VISIBLE
+
+    @property
+    def signal_sd(self) -> float:
+        """Signal of the hidden effect with all errors that the diagnosis counts, the solver's
+        own too; of the measurements' alone where several or none of the list are hidden.
+        """
+        if self.kind not in ("effect", "twins"):
+            return self.truth["signal_sd"]
+        ((name, amplitude),) = self.truth["effects"].items()
+        unit = self.candidate(name)["signal_per_unit"]
+        return abs(amplitude) * unit if unit > 0 else self.truth["signal_sd"]
+
+    @property
+    def has_double(self) -> bool:
+        """Whether what is hidden resembles a candidate of the list."""
+        return any(cosine > TWIN for _, cosine in self.truth["most_alike"].values())
 
     @property
     def is_confounded(self) -> bool:
-        alike = [cosine for _, cosine in self.truth["most_alike"].values()]
         weak = [eta < HIDDEN_BY_PARAMETERS for eta in self.truth["identifiability"].values()]
-        return any(weak) or any(cosine > TWIN for cosine in alike)
+        return any(weak) or self.has_double
 
     @property
     def names_one_wrongly(self) -> bool:
@@ -165,6 +180,10 @@ def _outside(case: Case) -> bool:
     return case.verdict["kind"] == "outside the list"
 
 
+def _lacks_effect(case: Case) -> bool:
+    return case.kind == "outside" and not case.truth["material"]
+
+
 def _found_bad_shot(case: Case) -> bool:
     return case.truth["corrupted"]["id"] in case.verdict["shots"]
 
@@ -197,10 +216,15 @@ QUESTIONS = [
     Question("two effects: at least one is in the set", _is("two effects"), _hits_set),
     Question("two effects: flagged", _is("two effects"), _flagged),
     Question(
-        "outside the list: says so (an effect the list lacks)",
-        lambda case: case.kind == "outside" and not case.truth["material"],
+        "outside the list: says so (an effect unlike all in the list)",
+        lambda case: _lacks_effect(case) and not case.has_double,
         _outside,
         0.80,
+    ),
+    Question(
+        "outside the list: says so (an effect that a listed one resembles)",
+        lambda case: _lacks_effect(case) and case.has_double,
+        _outside,
     ),
     Question(
         "outside the list: says so (another strength model)",

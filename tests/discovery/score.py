@@ -52,7 +52,7 @@ def case_row(case: Case) -> dict:
         "hidden": " ".join(case.hidden) or case.truth["material"],
         "amplitude": " ".join(f"{value:.4g}" for value in effects.values()),
         "strength": case.truth["strength"],
-        "signal_sd": f"{case.truth['signal_sd']:.2f}",
+        "signal_sd": f"{case.signal_sd:.2f}",
         "confounded": "yes" if case.is_confounded else "",
         "verdict": case.verdict["kind"],
         "flagged": "yes" if case.verdict["flagged"] else "",

@@ -8,7 +8,9 @@ from judge import QUESTIONS, Case, answers
 from score import main, markdown, read_cases, write_csv, answer_row
 
 
-def diagnosis(kind="no effect supported", effects=(), shots=(), in_set=(), interval=(0.1, 0.3)):
+def diagnosis(
+    kind="no effect supported", effects=(), shots=(), in_set=(), interval=(0.1, 0.3), per_unit=0.0
+):
     names = ["anvil_friction", "back_stress", "velocity_bias"]
     return {
         "verdict": {
@@ -19,7 +21,13 @@ def diagnosis(kind="no effect supported", effects=(), shots=(), in_set=(), inter
         },
         "adequacy": {"p_chi2": 0.5, "p_battery": 0.5, "p_score": 0.5},
         "candidates": [
-            {"name": name, "in_set": name in in_set, "lower95": interval[0], "upper95": interval[1]}
+            {
+                "name": name,
+                "in_set": name in in_set,
+                "lower95": interval[0],
+                "upper95": interval[1],
+                "signal_per_unit": per_unit,
+            }
             for name in names
         ],
     }
@@ -77,6 +85,22 @@ def test_only_visible_effects_must_be_flagged():
     cases = [friction(RIGHT), friction(diagnosis(), signal=5.9), friction(diagnosis())]
     answer = score_of(cases, "an effect of 6")
     assert (answer.hits, answer.trials) == (1, 2)
+
+
+def test_an_effect_is_as_visible_as_all_errors_let_it():
+    seen = friction(diagnosis(per_unit=35.0), signal=12.0)  # amplitude 0.2
+    hidden_by_errors = friction(diagnosis(per_unit=25.0), signal=12.0)
+    assert seen.signal_sd == pytest.approx(7) and seen.is_visible
+    assert not hidden_by_errors.is_visible
+
+
+def test_what_resembles_a_listed_effect_is_asked_apart():
+    said = diagnosis("outside the list")
+    alone = Case("a", truth("outside", {"anvil_friction": 0.2}, 15), said)
+    double = {"anvil_friction": ["back_stress", 0.95]}
+    other = Case("b", truth("outside", {"anvil_friction": 0.2}, 15, most_alike=double), said)
+    assert score_of([alone, other], "outside the list: says so (an effect unlike").trials == 1
+    assert score_of([alone, other], "outside the list: says so (an effect that").trials == 1
 
 
 def test_the_set_counts_members_beyond_the_named_ones():

@@ -47,16 +47,16 @@ def points(rows: list[dict], points_per_shape: int) -> list[dict]:
 
 
 def amplitude(candidate: dict, typical: float, turn: int) -> float:
-    """Value less base: typical, a third of it, and both the other way.
+    """Value less base: typical and two widths of the prior in turn, then both the other way.
 
-    An effect of one sign only keeps it. Several levels show the curvature; none goes far
-    beyond the prior, where sizes are no longer linear in the amplitude and runs are long.
+    An effect of one sign only keeps it. Two levels show the curvature; beyond them, where the
+    prior expects nothing, sizes are no longer linear in the amplitude and runs are long.
     """
     above = candidate["highest"] - candidate["base"]
     below = candidate["lowest"] - candidate["base"]
-    back = -typical if candidate["signed"] and below < 0 else typical
-    level = [typical, typical / 3, back, back / 3][turn % 4]
-    return float(np.clip(level, below, above))
+    sign = -1 if turn % 4 > 1 and candidate["signed"] and below < 0 else 1
+    far = np.copysign(2 * candidate["prior"]["scale"], typical)
+    return float(np.clip(sign * (far if turn % 2 else typical), below, above))
 
 
 def parameters_of(names: list[str], draws: dict[str, np.ndarray], lot: str, index: int) -> list:

@@ -1,5 +1,6 @@
 #include "calibrate/diagnosis/adequacy.hpp"
 
+#include "calibrate/diagnosis/bad_data.hpp"
 #include "calibrate/diagnosis/tail_probability.hpp"
 
 #include <algorithm>
@@ -54,7 +55,7 @@ void test_scores(Adequacy& adequacy, const DiagnosisProblem& problem,
         directions.col(static_cast<Eigen::Index>(i)) =
             adequacy.screening[tested[i]].projected;
     const MaximumTest test(directions, sides, table);
-    adequacy.critical_score = test.critical(problem.alpha / 3);
+    adequacy.critical_score = test.critical(Adequacy::level_of_test(problem.alpha));
     for (std::size_t i = 0; i < tested.size(); ++i)
         adequacy.p_score = std::min(
             adequacy.p_score,
@@ -77,6 +78,8 @@ Adequacy test_adequacy(const DiagnosisProblem& problem, const Whitening& whiten,
     for (Contrast& contrast : adequacy.battery)
         contrast.direction = whiten(contrast.direction);
     adequacy.p_battery = test_contrasts(adequacy.battery, project, refit.residual, table);
+    for (const Suspect& suspect : suspect_data(problem, whiten, refit))
+        adequacy.p_bad_data = std::min(adequacy.p_bad_data, suspect.p);
     adequacy.drift = drift_contrasts(problem, refit.slope);
     adequacy.p_drift = test_contrasts(adequacy.drift, project, refit.residual, table);
     for (std::size_t k = 0; k < problem.candidates.size(); ++k)

@@ -30,16 +30,24 @@ struct Adequacy {
     std::vector<Contrast> battery;
     double p_battery = 1;
     double p_score = 1;
+    double p_bad_data = 1;      ///< of the wildest shot or number
     double critical_score = 0;  ///< that would just be flagged
     std::vector<Contrast> drift;
     double p_drift = 1;
     std::vector<Screening> screening;  ///< of all candidates
 
-    double smallest_p() const { return std::min({p_score, p_battery, p_chi2}); }
-    /// Three tests share alpha. All are needed: the score finds what is in the list, the
-    /// battery what is not, chi^2 what has no pattern.
-    bool is_flagged(double alpha) const { return smallest_p() < alpha / 3; }
+    double smallest_p() const {
+        return std::min({p_score, p_battery, p_chi2, p_bad_data});
+    }
+    /// Four tests share alpha. All are needed: the score finds what is in the list, the
+    /// battery what is not, chi^2 what has no pattern, the last a single wrong number.
+    static double level_of_test(double alpha) { return alpha / 4; }
+    bool is_flagged(double alpha) const { return smallest_p() < level_of_test(alpha); }
 };
+
+/// An explanation fails when what it leaves would be flagged at this level. Stricter than
+/// alpha: one in twenty true explanations must not be thrown away.
+inline constexpr double alpha_of_rest = 0.01;
 
 /// Tests a refit; candidates among `refit.effects` and unseen ones are not screened.
 Adequacy test_adequacy(const DiagnosisProblem& problem, const Whitening& whiten,

@@ -1,8 +1,10 @@
 #include "calibrate/diagnosis/competition.hpp"
 
+#include "calibrate/diagnosis/extra_error.hpp"
 #include "calibrate/diagnosis/leave_out.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <exception>
 #include <numeric>
@@ -12,9 +14,6 @@ namespace {
 
 /// Evidence below which an explanation is no better than none.
 constexpr double least_gain = 1;
-/// An explanation fails when what it leaves would be flagged at this level. Stricter than
-/// alpha: one in twenty true explanations must not be thrown away.
-constexpr double alpha_of_rest = 0.01;
 
 std::vector<std::size_t> by_gain(const ModeDiagnosis& mode) {
     std::vector<std::size_t> order;
@@ -64,19 +63,22 @@ void weigh_candidates(const DiagnosisProblem& problem, ModeDiagnosis& mode) {
 void find_set(const DiagnosisProblem& problem, const NormalTable& table,
               ModeDiagnosis& mode) {
     double best = 0;
+    bool does_any = false;
     std::vector<std::size_t> members;
     for (const std::size_t k : by_gain(mode)) {
         CandidateRecord& record = mode.candidates[k];
         const double gain = record.evidence->log_gain;
-        if (gain < least_gain || (!members.empty() && gain < best - indistinguishable))
-            break;
+        if (gain < least_gain || (does_any && gain < best - indistinguishable)) break;
         if (!record.has_physical_sign) continue;
         record.explains = is_explanation(problem, record.evidence->fit, table,
                                          mode.adequacy.smallest_p());
-        if (!record.explains) continue;
-        if (members.empty()) best = gain;
+        if (record.explains && !does_any) best = gain;
+        does_any = does_any || record.explains;
         members.push_back(k);
     }
+    if (!does_any) return;
+    // One that fails to explain by a little may still be the truth, its signature not
+    // quite straight: it stays beside those that explain, if the evidence is for it.
     for (const std::size_t k : members) {
         mode.candidates[k].in_set = true;
         for (std::size_t l = 0; l < mode.candidates.size(); ++l)
@@ -133,6 +135,13 @@ void weigh_pairs(const DiagnosisProblem& problem, const NormalTable& table,
     std::stable_sort(
         mode.pairs.begin(), mode.pairs.end(),
         [](const auto& a, const auto& b) { return a.log_gain > b.log_gain; });
+}
+
+double unlisted_gain(const DiagnosisProblem& problem, const ModeDiagnosis& mode) {
+    constexpr std::array per_cent{0.5, 1.0, 2.0, 4.0};
+    const Projector project(mode.base.all_slopes());
+    return gain_of_extra_error(project(mode.whiten(smooth_patterns(problem))),
+                               project(mode.base.residual), per_cent);
 }
 
 }  // namespace taylorcal::calibrate

@@ -21,4 +21,8 @@ void find_set(const DiagnosisProblem& problem, const NormalTable& table,
 void weigh_pairs(const DiagnosisProblem& problem, const NormalTable& table,
                  ModeDiagnosis& mode);
 
+/// ln Z gained by the rival of all candidates: sizes that are off by a mean and a slope
+/// in velocity of their own for every shape, whatever the cause.
+double unlisted_gain(const DiagnosisProblem& problem, const ModeDiagnosis& mode);
+
 }  // namespace taylorcal::calibrate

@@ -18,51 +18,69 @@ double velocity_of(const DiagnosisProblem& problem, std::size_t datum) {
     return problem.shots[problem.data[datum].shot].velocity_m_s;
 }
 
-Contrast mean_of(const DiagnosisProblem& problem, const std::vector<std::size_t>& data) {
-    Contrast contrast;
-    contrast.what = "mean";
-    contrast.direction = Eigen::VectorXd::Zero(problem.measured.size());
-    for (const std::size_t i : data)
-        contrast.direction(static_cast<Eigen::Index>(i)) =
-            percent * problem.data[i].scale_mm;
-    return contrast;
+using Groups = std::map<std::pair<std::string, std::string>, std::vector<std::size_t>>;
+
+/// Numbers of each shape and size.
+Groups groups_of(const DiagnosisProblem& problem) {
+    Groups groups;
+    for (std::size_t i = 0; i < problem.data.size(); ++i)
+        groups[{problem.shots[problem.data[i].shot].shape, problem.data[i].size}]
+            .push_back(i);
+    return groups;
 }
 
-/// The velocities' ends get -1 and 1; no direction when all velocities are equal.
-Contrast slope_of(const DiagnosisProblem& problem, const std::vector<std::size_t>& data) {
-    Contrast contrast = mean_of(problem, data);
-    contrast.what = "slope";
+/// 1 % of each number times Legendre's polynomial of this order, velocities from -1 to 1;
+/// zero when all velocities are equal and the order is not.
+Eigen::VectorXd pattern_of(const DiagnosisProblem& problem,
+                           const std::vector<std::size_t>& data, unsigned order) {
     double lowest = velocity_of(problem, data.front()), highest = lowest;
     for (const std::size_t i : data) {
         lowest = std::min(lowest, velocity_of(problem, i));
         highest = std::max(highest, velocity_of(problem, i));
     }
     const double half = 0.5 * (highest - lowest), middle = 0.5 * (highest + lowest);
-    for (const std::size_t i : data)
-        contrast.direction(static_cast<Eigen::Index>(i)) *=
-            half > 0 ? (velocity_of(problem, i) - middle) / half : 0;
-    return contrast;
+    Eigen::VectorXd pattern = Eigen::VectorXd::Zero(problem.measured.size());
+    if (order > 0 && !(half > 0)) return pattern;
+    for (const std::size_t i : data) {
+        const double place = half > 0 ? (velocity_of(problem, i) - middle) / half : 0;
+        pattern(static_cast<Eigen::Index>(i)) =
+            percent * problem.data[i].scale_mm * std::legendre(order, place);
+    }
+    return pattern;
 }
 
 }  // namespace
 
 std::vector<Contrast> battery_contrasts(const DiagnosisProblem& problem) {
-    std::map<std::pair<std::string, std::string>, std::vector<std::size_t>> groups;
-    for (std::size_t i = 0; i < problem.data.size(); ++i)
-        groups[{problem.shots[problem.data[i].shot].shape, problem.data[i].size}]
-            .push_back(i);
     std::vector<Contrast> contrasts;
-    const auto add = [&](Contrast contrast, const auto& key) {
+    const auto add = [&](const auto& group, const char* what, unsigned order) {
+        const auto& [key, data] = group;
+        Contrast contrast;
         contrast.shape = key.first;
         contrast.size = key.second;
+        contrast.what = what;
+        contrast.direction = pattern_of(problem, data, order);
         if (contrast.direction.squaredNorm() > 0)
             contrasts.push_back(std::move(contrast));
     };
-    for (const auto& [key, data] : groups) {
-        if (data.size() >= enough_for_mean) add(mean_of(problem, data), key);
-        if (data.size() >= enough_for_slope) add(slope_of(problem, data), key);
+    for (const auto& group : groups_of(problem)) {
+        if (group.second.size() >= enough_for_mean) add(group, "mean", 0);
+        if (group.second.size() >= enough_for_slope) add(group, "slope", 1);
     }
     return contrasts;
+}
+
+Eigen::MatrixXd smooth_patterns(const DiagnosisProblem& problem) {
+    constexpr unsigned highest_order = 2;
+    std::vector<Eigen::VectorXd> patterns;
+    for (const auto& [key, data] : groups_of(problem))
+        for (unsigned order = 0; order <= highest_order && order < data.size(); ++order)
+            patterns.push_back(pattern_of(problem, data, order));
+    Eigen::MatrixXd columns(problem.measured.size(),
+                            static_cast<Eigen::Index>(patterns.size()));
+    for (std::size_t i = 0; i < patterns.size(); ++i)
+        columns.col(static_cast<Eigen::Index>(i)) = patterns[i];
+    return columns;
 }
 
 std::vector<Contrast> drift_contrasts(const DiagnosisProblem& problem,

@@ -26,6 +26,10 @@ struct Contrast {
 /// by an amount rising from -1 % to 1 % with velocity ("slope"; four and more). [mm]
 std::vector<Contrast> battery_contrasts(const DiagnosisProblem& problem);
 
+/// For each shape x size a mean, a slope and a curvature in velocity of 1 % [mm], a
+/// column each, as far as its data can tell them apart.
+Eigen::MatrixXd smooth_patterns(const DiagnosisProblem& problem);
+
 /// For each parameter x shape: whitened weights that give the shift of the parameter when
 /// the shape is fitted alone. Empty with one shape.
 std::vector<Contrast> drift_contrasts(const DiagnosisProblem& problem,

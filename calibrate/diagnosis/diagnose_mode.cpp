@@ -9,6 +9,8 @@ namespace {
 
 constexpr double power = 0.9;
 constexpr std::size_t most_that_say_something = 5;
+/// ln Z by which two effects must beat the best one: two at once are rarer.
+constexpr double worth_a_second = 5;
 
 void screen_candidates(const DiagnosisProblem& problem, ModeDiagnosis& mode) {
     const auto count = static_cast<Eigen::Index>(problem.candidates.size());
@@ -43,7 +45,8 @@ std::optional<Suspect> culprit(const DiagnosisProblem& problem, const ModeDiagno
     const auto best = std::max_element(
         mode.suspects.begin(), mode.suspects.end(),
         [](const auto& a, const auto& b) { return a.log_gain < b.log_gain; });
-    if (best == mode.suspects.end() || best->p >= problem.alpha / 3) return std::nullopt;
+    if (best == mode.suspects.end() || best->p >= Adequacy::level_of_test(problem.alpha))
+        return std::nullopt;
     if (!is_adequate_without(problem, mode.base, *best, table)) return std::nullopt;
     return *best;
 }
@@ -59,24 +62,33 @@ std::vector<std::size_t> members_of_set(const ModeDiagnosis& mode) {
     return members;
 }
 
-/// Pairs that explain, within reach of the best of them.
-void judge_pairs(Verdict& verdict, const ModeDiagnosis& mode) {
+/// Pairs that explain, within reach of the best of them, which comes first.
+std::vector<const PairRecord*> explaining_pairs(const ModeDiagnosis& mode) {
     std::vector<const PairRecord*> found;
     for (const PairRecord& pair : mode.pairs)
         if (pair.explains && pair.log_gain > 0 &&
             (found.empty() ||
              pair.log_gain > found.front()->log_gain - indistinguishable))
             found.push_back(&pair);
-    for (const PairRecord* pair : found)
+    return found;
+}
+
+void name_pairs(Verdict& verdict, const std::vector<const PairRecord*>& pairs) {
+    verdict.effects.clear();
+    for (const PairRecord* pair : pairs)
         for (const std::size_t k : pair->effects)
             if (std::count(verdict.effects.begin(), verdict.effects.end(), k) == 0)
                 verdict.effects.push_back(k);
-    if (found.size() == 1)
-        verdict.kind = VerdictKind::effect;
-    else if (found.size() > 1)
-        verdict.kind = VerdictKind::one_of;
+    verdict.kind = pairs.size() == 1 ? VerdictKind::effect : VerdictKind::one_of;
+}
+
+/// What the evidence does not tell from each other, or from nothing at all, is not named.
+void name_set(Verdict& verdict, double best) {
+    if (best < indistinguishable || verdict.effects.size() > most_that_say_something)
+        verdict.kind = VerdictKind::not_distinguishable;
     else
-        verdict.kind = VerdictKind::outside_the_list;
+        verdict.kind =
+            verdict.effects.size() == 1 ? VerdictKind::effect : VerdictKind::one_of;
 }
 
 void judge(const DiagnosisProblem& problem, const NormalTable& table,
@@ -84,29 +96,34 @@ void judge(const DiagnosisProblem& problem, const NormalTable& table,
     Verdict& verdict = mode.verdict;
     verdict.is_flagged = mode.adequacy.is_flagged(problem.alpha);
     if (!verdict.is_flagged) return;
-    // A wild shot first: no effect may explain it, nor a shot the end of a trend.
     const std::optional<Suspect> suspect = culprit(problem, mode, table);
     find_set(problem, table, mode);
+    weigh_pairs(problem, table, mode);
     verdict.effects = members_of_set(mode);
-    const bool none = verdict.effects.empty();
-    double best = 0;
+    const std::vector<const PairRecord*> pairs = explaining_pairs(mode);
+    double best = 0;  // ln Z of what the list can say
     for (const std::size_t k : verdict.effects)
         best = std::max(best, mode.candidates[k].evidence->log_gain);
-    if (suspect && (none || suspect->log_gain > best + indistinguishable)) {
+    const bool needs_two =
+        !pairs.empty() &&
+        (verdict.effects.empty() || pairs.front()->log_gain > best + worth_a_second);
+    if (needs_two) best = pairs.front()->log_gain;
+    const bool none = verdict.effects.empty() && !needs_two;
+    const double rival = std::max(best, mode.unlisted_gain);
+    if (suspect && suspect->log_gain > rival + indistinguishable) {
         verdict.kind = VerdictKind::bad_data;
         verdict.effects.clear();
         verdict.suspects = {*suspect};
-    } else if (suspect && suspect->log_gain > best - indistinguishable) {
+    } else if (suspect && suspect->log_gain > rival - indistinguishable) {
         verdict.kind = VerdictKind::not_distinguishable;
         verdict.suspects = {*suspect};
-    } else if (none) {
-        weigh_pairs(problem, table, mode);
-        judge_pairs(verdict, mode);
-    } else if (verdict.effects.size() > most_that_say_something) {
-        verdict.kind = VerdictKind::not_distinguishable;
+    } else if (none || mode.unlisted_gain > best + indistinguishable) {
+        verdict.kind = VerdictKind::outside_the_list;
+        verdict.effects.clear();
+    } else if (needs_two) {
+        name_pairs(verdict, pairs);
     } else {
-        verdict.kind =
-            verdict.effects.size() == 1 ? VerdictKind::effect : VerdictKind::one_of;
+        name_set(verdict, best);
     }
 }
 
@@ -148,6 +165,7 @@ ModeDiagnosis diagnose_mode(const DiagnosisProblem& problem, const Eigen::Vector
     screen_candidates(problem, mode);
     mode.suspects = suspect_data(problem, mode.whiten, mode.base);
     weigh_candidates(problem, mode);
+    mode.unlisted_gain = unlisted_gain(problem, mode);
     judge(problem, table, mode);
     mode.unexplained = describe_unexplained(problem, remaining_residual(mode));
     return mode;

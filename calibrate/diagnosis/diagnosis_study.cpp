@@ -109,6 +109,7 @@ DiagnosisProblem DiagnosisStudy::problem_at(const Eigen::VectorXd& unit) const {
     const View& view = view_at(unit);
     DiagnosisProblem problem{view.model};
     problem.covariance = view.errors.total();
+    problem.freedom = view.errors.freedom();
     problem.measured.resize(problem.covariance.rows());
     for (const Datum& datum : data_) {
         for (std::size_t i = 0; i < datum.columns.size(); ++i) {

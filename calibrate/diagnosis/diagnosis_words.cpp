@@ -1,4 +1,5 @@
 #include "calibrate/comparison/words.hpp"
+#include "calibrate/diagnosis/competition.hpp"
 #include "calibrate/diagnosis/diagnosis.hpp"
 
 #include <algorithm>
@@ -42,9 +43,9 @@ std::string adequacy_words(const Adequacy& adequacy, bool is_flagged) {
     const std::string numbers = fmt::format(
         "chi^2 {:.0f} on {} degrees of freedom, p = {:.2g}; patterns by shape and size p "
         "= "
-        "{:.2g}; listed candidates p = {:.2g}",
+        "{:.2g}; listed candidates p = {:.2g}; the wildest shot p = {:.2g}",
         adequacy.chi2, adequacy.n - adequacy.parameters, adequacy.p_chi2,
-        adequacy.p_battery, adequacy.p_score);
+        adequacy.p_battery, adequacy.p_score, adequacy.p_bad_data);
     if (!is_flagged)
         return fmt::format(
             "The calibrated model explains all {} measured numbers within their errors "
@@ -74,6 +75,35 @@ std::string suspect_words(const DiagnosisProblem& problem, const Suspect& suspec
     return suspect.size.empty()
                ? shot
                : fmt::format("{} of {}", size_in_words(suspect.size), shot);
+}
+
+/// What came nearest though it does not explain.
+std::string nearest_words(const DiagnosisProblem& problem, const ModeDiagnosis& mode) {
+    const CandidateRecord* best = nullptr;
+    std::size_t nearest = 0;
+    for (std::size_t k = 0; k < mode.candidates.size(); ++k) {
+        const CandidateRecord& record = mode.candidates[k];
+        if (!record.evidence || !record.has_physical_sign) continue;
+        if (best && record.evidence->log_gain <= best->evidence->log_gain) continue;
+        best = &record;
+        nearest = k;
+    }
+    if (!best || best->evidence->log_gain < indistinguishable) return "";
+    return fmt::format("Nearest comes {}, and leaves a misfit. ",
+                       explanation_words(problem, mode, nearest));
+}
+
+/// Wild shots beside whatever else was found.
+std::string wild_words(const DiagnosisProblem& problem, const Diagnosis& diagnosis) {
+    if (!diagnosis.verdict.suspects.empty()) return "";
+    std::vector<std::string> wild;
+    for (const Suspect& suspect : diagnosis.modes.front().suspects)
+        if (suspect.size.empty() && suspect.p < Adequacy::level_of_test(problem.alpha))
+            wild.push_back(fmt::format("{} ({:.1f} standard errors)",
+                                       problem.shots[suspect.shot].id, suspect.z));
+    if (wild.empty()) return "";
+    return fmt::format("Besides, far from what the others say: {}; check the record. ",
+                       fmt::join(wild, ", "));
 }
 
 std::string finding_words(const DiagnosisProblem& problem, const Diagnosis& diagnosis) {
@@ -113,8 +143,12 @@ std::string finding_words(const DiagnosisProblem& problem, const Diagnosis& diag
                                fmt::join(effects, "; "), mixed);
         case VerdictKind::outside_the_list:
             return fmt::format(
-                "No listed candidate, nor two together, restore agreement: "
-                "the cause is outside the list. {}",
+                "No listed candidate, nor two together, explains it well enough: the "
+                "cause "
+                "is outside the list (smooth patterns without a cause gain ln Z "
+                "{:+.1f}). "
+                "{}{}",
+                mode.unlisted_gain, nearest_words(problem, mode),
                 unexplained_words(mode.unexplained));
         case VerdictKind::bad_data:
             return fmt::format(
@@ -168,7 +202,8 @@ std::string in_words(const std::string& name) {
 std::string verdict_words(const DiagnosisProblem& problem, const Diagnosis& diagnosis) {
     std::string words =
         adequacy_words(diagnosis.modes.front().adequacy, diagnosis.verdict.is_flagged) +
-        finding_words(problem, diagnosis) + blind_words(problem, diagnosis);
+        finding_words(problem, diagnosis) + wild_words(problem, diagnosis) +
+        blind_words(problem, diagnosis);
     while (!words.empty() && words.back() == ' ') words.pop_back();
     return words;
 }

@@ -1,5 +1,6 @@
 #include "calibrate/diagnosis/error_budget.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -71,8 +72,12 @@ void add_fit_errors(const std::vector<Place>& places, const CorrectedPredictor& 
     }
 }
 
-/// Directions in which a coarser mesh moves all shots of a shape: the whole pattern, and
-/// half of it by size, as the pattern is known from few runs.
+/// What is left from the finer runs to the limit of fine cells, over the change from the
+/// base runs to them: (1/8^2)/(1/5^2 - 1/8^2) = 0.64 for 5 and 8 cells, 0.8 for 8 and 12.
+constexpr double left_to_limit = 0.7;
+
+/// Directions in which finer cells would move all shots of a shape: the whole pattern,
+/// and half of it by size, as the pattern is known from few runs.
 void add_resolution(const CorrectedPredictor& predictor, const std::vector<Place>& places,
                     Eigen::MatrixXd& covariance) {
     constexpr double by_size = 0.5;
@@ -82,8 +87,8 @@ void add_resolution(const CorrectedPredictor& predictor, const std::vector<Place
         const Place& place = places[static_cast<std::size_t>(i)];
         const auto& fit = predictor.signature(place.datum->shot.shape).resolution;
         if (fit)
-            pattern(i) =
-                place.datum->shot.initial_diameter_mm * (*fit)(place.terms)(place.output);
+            pattern(i) = left_to_limit * place.datum->shot.initial_diameter_mm *
+                         (*fit)(place.terms)(place.output);
     }
     for (Eigen::Index i = 0; i < n; ++i)
         for (Eigen::Index j = 0; j < n; ++j) {
@@ -99,6 +104,10 @@ const SmoothFit* network_error_of(const ShapeSignature& shape) {
     return &shape.network_error;
 }
 
+const SmoothFit* resolution_of(const ShapeSignature& shape) {
+    return shape.resolution ? &*shape.resolution : nullptr;
+}
+
 double velocity_sd(const Settings& settings, const Shot& shot) {
     return shot.velocity_sd_m_s.value_or(settings.velocity_sd_relative *
                                          shot.velocity_m_s);
@@ -111,7 +120,14 @@ ErrorBudget error_budget(const CorrectedPredictor& predictor, const CorrectedMod
     const std::vector<Place> places = places_in(predictor, model, network_error_of);
     const auto n = static_cast<Eigen::Index>(places.size());
     const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(n, n);
-    ErrorBudget budget{none, none, none, none, none};
+    ErrorBudget budget{none, none, none, none, none, Eigen::VectorXd(n)};
+    for (Eigen::Index i = 0; i < n; ++i) {
+        const Place& place = places[static_cast<std::size_t>(i)];
+        const auto points =
+            static_cast<double>(predictor.signature(place.datum->shot.shape).points);
+        budget.freedom_of_scatter(i) =
+            std::max(1.0, points - static_cast<double>(place.terms.size()));
+    }
     Eigen::Index at = 0;
     for (const Datum* datum : model.data()) {
         const auto count = static_cast<Eigen::Index>(datum->columns.size());
@@ -125,13 +141,15 @@ ErrorBudget error_budget(const CorrectedPredictor& predictor, const CorrectedMod
     }
     add_fit_errors(places, predictor, network_error_of, &budget.scatter,
                    &budget.correction);
-    add_resolution(predictor,
-                   places_in(predictor, model,
-                             [](const ShapeSignature& shape) {
-                                 return shape.resolution ? &*shape.resolution : nullptr;
-                             }),
+    add_resolution(predictor, places_in(predictor, model, resolution_of),
                    budget.resolution);
     return budget;
+}
+
+Eigen::VectorXd ErrorBudget::freedom() const {
+    const Eigen::ArrayXd estimated = (scatter + correction).diagonal().array();
+    const Eigen::ArrayXd share = estimated / total().diagonal().array();
+    return freedom_of_scatter.array() / share.max(1e-6).square();
 }
 
 std::string ErrorBudget::words(const CorrectedModel& model) const {
@@ -181,8 +199,10 @@ Eigen::MatrixXd covariance_of_new_shot(const CorrectedPredictor& predictor,
     const double area = shot.initial_diameter_mm * shot.initial_diameter_mm;
     covariance += area * shape.network_error.noise;
     if (shape.resolution) {
-        const Eigen::VectorXd pattern = (*shape.resolution)(shape.terms(
-            *shape.resolution, predictor.inputs(shot, parameters.row(0).transpose())));
+        const Eigen::VectorXd pattern =
+            left_to_limit * (*shape.resolution)(shape.terms(
+                                *shape.resolution,
+                                predictor.inputs(shot, parameters.row(0).transpose())));
         covariance += area * pattern * pattern.transpose();
     }
     return covariance;

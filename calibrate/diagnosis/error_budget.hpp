@@ -13,12 +13,16 @@ struct ErrorBudget {
     Eigen::MatrixXd measurement;  ///< of the sizes, independent
     Eigen::MatrixXd velocity;     ///< moves all sizes of a shot together
     Eigen::MatrixXd scatter;  ///< of paired runs about their fit: grains, and its misfit
-    Eigen::MatrixXd correction;  ///< of delta's coefficients: common to a shape
-    Eigen::MatrixXd resolution;  ///< of the discretisation: common to a shape
+    Eigen::MatrixXd correction;          ///< of delta's coefficients: common to a shape
+    Eigen::MatrixXd resolution;          ///< of the discretisation: common to a shape
+    Eigen::VectorXd freedom_of_scatter;  ///< points less terms of each number's fit
 
     Eigen::MatrixXd total() const {
         return measurement + velocity + scatter + correction + resolution;
     }
+    /// Welch's and Satterthwaite's degrees of freedom of each number's variance, of which
+    /// a part was estimated from few runs.
+    Eigen::VectorXd freedom() const;
     /// Root mean square of each, in per cent of the sizes.
     std::string words(const CorrectedModel& model) const;
 };

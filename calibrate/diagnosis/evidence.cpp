@@ -6,8 +6,10 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 
 namespace taylorcal::calibrate {
 namespace {
@@ -177,19 +179,44 @@ EffectEvidence effect_evidence(const DiagnosisProblem& problem, const Whitening&
 
 double pair_evidence(const DiagnosisProblem& problem, const Whitening& whiten,
                      const Refit& base, const Refit& fit, double log_determinant) {
-    const Eigen::MatrixXd projected = Projector(fit.slope)(fit.effect_slope);
-    const Eigen::MatrixXd precision =
-        projected.transpose() * projected / (2 * std::numbers::pi);
-    double gain = log_average_likelihood(fit, log_determinant) -
-                  log_average_likelihood(base, whiten.log_determinant()) -
-                  0.5 * log_det(precision);
-    for (std::size_t e = 0; e < fit.effects.size(); ++e) {
-        const Candidate& c = problem.candidates[fit.effects[e]];
-        gain += std::log(std::abs(c.typical())) -
-                std::log(c.prior.mass(c.lower(), c.upper())) +
-                c.prior.log_density(fit.amplitudes(static_cast<Eigen::Index>(e)));
-    }
-    return gain;
+    constexpr Eigen::Index points = 241;
+    const Candidate& first = problem.candidates[fit.effects[0]];
+    const Candidate& second = problem.candidates[fit.effects[1]];
+    const Eigen::Vector2d typical(std::abs(first.typical()), std::abs(second.typical()));
+    const Projector project(fit.slope);
+    const Eigen::MatrixXd slope =
+        project(fit.effect_slope) * typical.cwiseInverse().asDiagonal();
+    const Eigen::Matrix2d precision = slope.transpose() * slope;
+    // Not zero where a bound of the range or of a parameter holds the fit back.
+    const Eigen::Vector2d uphill = slope.transpose() * project(fit.residual);
+    // Where the mass is, were the priors normal ones.
+    Eigen::Matrix2d narrowed = precision;
+    for (const auto& [c, e] : {std::pair{&first, 0}, std::pair{&second, 1}})
+        narrowed(e, e) += 1 / std::pow(c->prior.scale, 2);
+    const Eigen::Matrix2d covariance = narrowed.inverse();
+    const Eigen::Vector2d mean = covariance * (precision * fit.amplitudes + uphill);
+    const auto axis = [&](const Candidate& c, Eigen::Index e) {
+        const double half = (reach + 2) * std::sqrt(covariance(e, e));
+        return Eigen::VectorXd(Eigen::VectorXd::LinSpaced(
+            points, std::max(c.lower(), std::min(mean(e), c.upper()) - half),
+            std::min(c.upper(), std::max(mean(e), c.lower()) + half)));
+    };
+    const Eigen::VectorXd a = axis(first, 0), b = axis(second, 1);
+    Eigen::MatrixXd log_mass(points, points);
+    for (Eigen::Index i = 0; i < points; ++i)
+        for (Eigen::Index j = 0; j < points; ++j) {
+            const Eigen::Vector2d away = Eigen::Vector2d(a(i), b(j)) - fit.amplitudes;
+            log_mass(i, j) = away.dot(uphill) - 0.5 * away.dot(precision * away) +
+                             first.prior.log_density(a(i)) +
+                             second.prior.log_density(b(j));
+        }
+    const double highest = log_mass.maxCoeff();
+    const double cell = (a(1) - a(0)) * (b(1) - b(0));
+    return log_average_likelihood(fit, log_determinant) -
+           log_average_likelihood(base, whiten.log_determinant()) + highest +
+           std::log((log_mass.array() - highest).exp().sum() * cell) -
+           std::log(first.prior.mass(first.lower(), first.upper())) -
+           std::log(second.prior.mass(second.lower(), second.upper()));
 }
 
 }  // namespace taylorcal::calibrate

@@ -39,7 +39,8 @@ Refit refit_with(const DiagnosisProblem& problem, std::optional<Whitening>& whit
 EffectEvidence effect_evidence(const DiagnosisProblem& problem, const Whitening& whiten,
                                const Refit& base, std::size_t k);
 
-/// The same for several candidates at once by Laplace's approximation.
+/// The same for two candidates at once: the likelihood quadratic about the fit, the
+/// priors as they are, integrated over both amplitudes.
 double pair_evidence(const DiagnosisProblem& problem, const Whitening& whiten,
                      const Refit& base, const Refit& fit, double log_determinant);
 

@@ -61,6 +61,7 @@ struct ModeDiagnosis {
     std::vector<CandidateRecord> candidates{};
     Eigen::MatrixXd cosine{};  ///< R of the projected effects
     std::vector<PairRecord> pairs{};
+    double unlisted_gain = 0;         ///< ln Z of a smooth misfit without a listed cause
     std::vector<Suspect> suspects{};  ///< of all shots and numbers
     Unexplained unexplained{};        ///< by the best explanation there is
     Verdict verdict{};

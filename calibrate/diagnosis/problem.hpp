@@ -49,6 +49,8 @@ struct DiagnosisProblem {
     const DiagnosisModel& model;
     Eigen::VectorXd measured{};    ///< [mm]
     Eigen::MatrixXd covariance{};  ///< of all errors [mm^2], full
+    /// Degrees of freedom with which each number's variance is known; empty: exactly.
+    Eigen::VectorXd freedom{};
     std::vector<MeasuredNumber> data{};
     std::vector<ShotLabel> shots{};
     std::vector<std::string> parameters{};  ///< names of the cube's coordinates

@@ -91,6 +91,12 @@ std::optional<ShapeSignature> shape_signature(const PairedRuns& runs,
             inputs_of(runs.bases[bases[i]]).transpose();
     signature.scaling = InputScaling(signature.inputs);
 
+    // The finest runs there are say what the network lacks; too few of them, the base
+    // runs.
+    const bool has_finer =
+        std::count_if(bases.begin(), bases.end(), [&](std::size_t i) {
+            return finer[i].size() > 0 && finer[i](signature.sizes).allFinite();
+        }) >= fewest_points;
     Rows network_error, resolution, descriptors;
     for (const std::size_t i : bases) {
         const BaseRun& run = runs.bases[i];
@@ -98,11 +104,14 @@ std::optional<ShapeSignature> shape_signature(const PairedRuns& runs,
         const double diameter = run.shot.initial_diameter_mm;
         const Eigen::VectorXd predicted =
             network.predict(run.shot, run.parameters.transpose()).row(0).transpose();
-        network_error.add(scaled, 1,
-                          (run.sizes_mm - predicted)(signature.sizes) / diameter);
         descriptors.add(scaled, 1, run.descriptors);
-        if (finer[i].size() > 0)
+        Eigen::VectorXd error = run.sizes_mm - predicted;
+        if (has_finer) {
+            if (finer[i].size() == 0) continue;
             resolution.add(scaled, 1, finer[i](signature.sizes) / diameter);
+            error += finer[i];
+        }
+        network_error.add(scaled, 1, error(signature.sizes) / diameter);
     }
     const std::optional<SmoothFit> error = network_error.fit();
     if (!error) return std::nullopt;

@@ -19,8 +19,8 @@ Eigen::VectorXd signature_inputs(const Shot& shot, const Eigen::VectorXd& parame
 /// diameter.
 struct ShapeSignature {
     InputScaling scaling;
-    std::vector<Eigen::Index> sizes;                ///< fitted sizes that the shape has
-    SmoothFit network_error;                        ///< solver - network
+    std::vector<Eigen::Index> sizes;  ///< fitted sizes that the shape has
+    SmoothFit network_error;  ///< solver, at the finest fidelity there is, - network
     std::vector<std::optional<SmoothFit>> effects;  ///< change / (amplitude / typical)
     std::optional<SmoothFit> resolution;            ///< finer - present fidelity
     SmoothFit descriptors;

@@ -15,7 +15,7 @@ constexpr std::array ridges{0.01, 0.1, 1.0, 10.0};
 constexpr double worth_a_term = 0.95;
 
 struct Trial {
-    Eigen::MatrixXd coefficients, spread, studentised;
+    Eigen::MatrixXd coefficients, spread;
     Eigen::MatrixXd left_out;  // errors of leaving one out
 };
 
@@ -32,7 +32,6 @@ Trial try_terms(const Eigen::MatrixXd& terms, const Eigen::MatrixXd& targets,
         (1 - ((terms * trial.spread).cwiseProduct(terms)).rowwise().sum().array())
             .max(1e-3);
     trial.left_out = free.cwiseInverse().asDiagonal() * errors;
-    trial.studentised = free.cwiseSqrt().cwiseInverse().asDiagonal() * errors;
     return trial;
 }
 
@@ -118,7 +117,7 @@ SmoothFit fit_smoothly(const Eigen::MatrixXd& scaled, const Eigen::VectorXd& amp
                 static_cast<double>(n);
             if (error >= worth_a_term * best.chosen_error) continue;
             best = {terms, trial.coefficients, trial.spread,
-                    shrunk_covariance(trial.studentised), error};
+                    shrunk_covariance(trial.left_out), error};
         }
     }
     return best;

@@ -40,7 +40,9 @@ struct SmoothFit {
     Eigen::MatrixXd coefficients;  ///< [terms x outputs]
     /// Covariance of the coefficients of outputs a and b: noise(a, b) x this.
     Eigen::MatrixXd spread;
-    Eigen::MatrixXd noise;    ///< covariance of a point about the polynomial
+    /// Covariance of a new point about the polynomial: of the errors of leaving one out,
+    /// since the terms were chosen among many by the very points.
+    Eigen::MatrixXd noise;
     double chosen_error = 0;  ///< mean squared leave-one-out error over that of the data
 
     Eigen::VectorXd operator()(const Eigen::VectorXd& terms_at) const {

@@ -1,3 +1,4 @@
+#include "calibrate/diagnosis/extra_error.hpp"
 #include "calibrate/diagnosis/leave_out.hpp"
 #include "calibrate/diagnosis/tail_probability.hpp"
 #include "tests/unit/diagnosis/linear_table.hpp"
@@ -30,6 +31,11 @@ TEST_CASE("tails of normal and chi^2 distributions have their known values", "[t
     CHECK(chi2_tail(7, 4) == Approx(std::exp(-3.5) * (1 + 3.5)).epsilon(1e-12));
     CHECK(chi2_tail(200, 4) == Approx(std::exp(-100) * 101).epsilon(1e-10));
     CHECK(chi2_tail(0, 3) == 1);
+    // Tables of F, and Student's t with one degree of freedom, which is Cauchy's.
+    CHECK(fisher_tail(3.325834, 5, 10) == Approx(0.05).epsilon(1e-5));
+    CHECK(fisher_tail(100, 1, 1) == Approx(1 - 2 / M_PI * std::atan(10.0)).epsilon(1e-9));
+    CHECK(fisher_tail(2, 4, 1e9) == Approx(chi2_tail(8, 4)).epsilon(1e-6));
+    CHECK(fisher_tail(2, 4, INFINITY) == chi2_tail(8, 4));
 }
 
 TEST_CASE("scores, chi^2 and amplitudes are those of the normal equations",
@@ -101,6 +107,62 @@ TEST_CASE("the amplitude's posterior is the conjugate one", "[evidence]") {
     CHECK(e.sd == Approx(std::sqrt(v)).epsilon(0.02));
     CHECK(e.lower95 == Approx(m - 1.96 * std::sqrt(v)).epsilon(0.02));
     CHECK(e.upper95 == Approx(m + 1.96 * std::sqrt(v)).epsilon(0.02));
+}
+
+TEST_CASE("a further part of the errors gains what the joint Gaussian says",
+          "[evidence]") {
+    const toys::LinearTable table;
+    const Eigen::VectorXd r =
+        table.white(table.draw(6, table.effects.col(3)) - table.base);
+    const Eigen::MatrixXd patterns = table.white(table.effects.leftCols(4));
+    // Without the parameters' directions: an orthonormal basis of what is left.
+    const Eigen::MatrixXd j = table.white(table.slope);
+    const Eigen::MatrixXd q = j.householderQr().householderQ();
+    const Eigen::MatrixXd left = q.rightCols(q.cols() - j.cols());
+    const auto n = left.cols();
+    const auto gain = [&](double s) {
+        const Eigen::MatrixXd b = left.transpose() * patterns;
+        const Eigen::MatrixXd whole =
+            Eigen::MatrixXd::Identity(n, n) + s * s * b * b.transpose();
+        return log_density(left.transpose() * r, whole) -
+               log_density(left.transpose() * r, Eigen::MatrixXd::Identity(n, n));
+    };
+    const Eigen::MatrixXd columns = table.project(patterns);
+    const Eigen::VectorXd rest = table.project(r);
+    const std::vector<double> one{0.7}, two{0.7, 3.0};
+    CHECK(gain_of_extra_error(columns, rest, one) == Approx(gain(0.7)).epsilon(1e-9));
+    CHECK(
+        gain_of_extra_error(columns, rest, two) ==
+        Approx(std::log((std::exp(gain(0.7)) + std::exp(gain(3.0))) / 2)).epsilon(1e-9));
+}
+
+TEST_CASE("the evidence of a pair is the conjugate one", "[evidence]") {
+    toys::LinearTable table;
+    const double amplitude = table.amplitude_of(table.effects.col(0), 12);
+    // Also where data and prior disagree by eight of its standard deviations, and where
+    // the prior is far narrower than what the data say.
+    const double scale = amplitude * GENERATE(1.0, 0.125, 0.001);
+    for (Candidate& c : table.candidates) {
+        c.prior = {AmplitudePrior::Kind::normal, scale};
+        c.lowest = -100;
+    }
+    const Eigen::VectorXd shift =
+        amplitude * table.effects.col(0) +
+        table.amplitude_of(table.effects.col(5), 10) * table.effects.col(5);
+    const Eigen::VectorXd y = table.draw(5, shift);
+    const ModeDiagnosis found = table.diagnose(y);
+    REQUIRE(found.pairs.size() >= 3);
+    const Eigen::VectorXd r = table.project(table.white(y - table.base));
+    for (const PairRecord& pair : found.pairs) {
+        Eigen::MatrixXd both(y.size(), 2);
+        for (Eigen::Index e = 0; e < 2; ++e)
+            both.col(e) = table.effects.col(
+                static_cast<Eigen::Index>(pair.effects[static_cast<std::size_t>(e)]));
+        const std::vector<double> scales{scale};
+        CHECK(pair.log_gain ==
+              Approx(gain_of_extra_error(table.project(table.white(both)), r, scales))
+                  .margin(0.05));
+    }
 }
 
 TEST_CASE("leaving a shape out predicts it as the joint Gaussian says", "[leave_out]") {

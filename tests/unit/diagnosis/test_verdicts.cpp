@@ -28,7 +28,7 @@ TEST_CASE("sound tables are flagged no more often than alpha", "[verdict]") {
     const double limit = tables * 0.05 + 2 * std::sqrt(tables * 0.05 * 0.95);
     INFO(flagged << " of " << tables);
     CHECK(flagged <= limit);
-    // The three tests share alpha but overlap: not so strict that power is thrown away.
+    // The four tests share alpha but overlap: not so strict that power is thrown away.
     CHECK(flagged >= 2);
 }
 

@@ -49,8 +49,8 @@ def seen_and_hidden(results: DiagnosisResults) -> tuple[list[dict], str]:
 
 
 def test_rows(adequacy: dict, scores: list[float]) -> list[dict]:
-    """The three tests: what each asks, its statistic, and whether it raises the flag."""
-    threshold = adequacy["alpha"] / 3
+    """The four tests: what each asks, its statistic, and whether it raises the flag."""
+    threshold = adequacy["level_of_test"]
     battery = adequacy["battery"]
     worst = _contrast(battery[0]) if battery else ""
     degrees = adequacy["n"] - adequacy["p_parameters"]
@@ -73,6 +73,12 @@ def test_rows(adequacy: dict, scores: list[float]) -> list[dict]:
             "Do the deviations look like what one of the listed effects would do?",
             f"largest score {largest:.1f}",
             adequacy["p_score"],
+        ),
+        (
+            "A single shot",
+            "Is one measurement far from all that the others say?",
+            "its errors counted, and how many were looked at",
+            adequacy["p_bad_data"],
         ),
     ]
     return [

@@ -1,8 +1,8 @@
 #include "solver/commands/batch.hpp"
 
 #include "common/errors.hpp"
-#include "common/progress.hpp"
 #include "common/program_code.hpp"
+#include "common/progress.hpp"
 #include "common/provenance.hpp"
 #include "solver/commands/journal.hpp"
 #include "solver/commands/run_table.hpp"

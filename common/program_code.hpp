@@ -11,7 +11,7 @@ namespace taylorcal {
 /// own, which common/program_code.cmake writes.
 std::string program_code();
 
-/// What `--version` prints, e.g. "solver 0.1.0 (3f2a91c), code fdb35cfd0e508a3d".
+/// What `--version` says, e.g. "solver 0.1.0 (3f2a91c), code fdb35cfd0e508a3d".
 inline std::string version_words(const std::string& program) {
     return program + " " + version() + ", code " + program_code();
 }

@@ -2,7 +2,7 @@
 #include "calibrate/commands/diagnose.hpp"
 #include "calibrate/commands/sample.hpp"
 #include "common/errors.hpp"
-#include "common/provenance.hpp"
+#include "common/program_code.hpp"
 
 #include <CLI/CLI.hpp>
 #include <omp.h>
@@ -17,7 +17,7 @@ int main(int argc, char** argv) {
 
     CLI::App app("Bayesian calibration of a network against measured Taylor tests.",
                  "calibrate");
-    app.set_version_flag("--version", "calibrate " + taylorcal::version());
+    app.set_version_flag("--version", taylorcal::version_words("calibrate"));
     app.require_subcommand(1);
     app.footer(
         "Examples:\n"

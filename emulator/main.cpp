@@ -1,5 +1,5 @@
 #include "common/errors.hpp"
-#include "common/provenance.hpp"
+#include "common/program_code.hpp"
 #include "emulator/commands/commands.hpp"
 
 #include <CLI/CLI.hpp>
@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
     spdlog::set_pattern("%n: %v");
 
     CLI::App app("Regression networks: learn a database of runs, then answer at once.");
-    app.set_version_flag("--version", taylorcal::version());
+    app.set_version_flag("--version", taylorcal::version_words("emulator"));
     app.require_subcommand(1);
     app.footer(
         "Examples:\n"

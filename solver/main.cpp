@@ -1,5 +1,5 @@
 #include "common/errors.hpp"
-#include "common/provenance.hpp"
+#include "common/program_code.hpp"
 #include "solver/commands/batch.hpp"
 #include "solver/commands/effects.hpp"
 #include "solver/commands/merge.hpp"
@@ -18,7 +18,7 @@ int run(int argc, char** argv) {
     using namespace taylorcal::commands;
     CLI::App app{"Taylor impact of copper with a dislocation model of plasticity.",
                  "solver"};
-    app.set_version_flag("--version", "solver " + taylorcal::version());
+    app.set_version_flag("--version", taylorcal::version_words("solver"));
     app.require_subcommand(1);
     app.footer("\"solver COMMAND --help\" ends with sample runs.");
     add_run(app);

@@ -127,9 +127,7 @@ void weigh_pairs(const DiagnosisProblem& problem, const NormalTable& table,
         std::optional<Whitening> whiten = mode.whiten;
         const Refit fit = refit_with(problem, whiten, promise.effects, mode.base);
         mode.pairs.push_back(
-            {promise.effects,
-             pair_evidence(problem, mode.whiten, mode.base, fit,
-                           whiten->log_determinant()),
+            {promise.effects, pair_evidence(problem, *whiten, mode.base, fit),
              is_explanation(problem, fit, table, mode.adequacy.smallest_p())});
     }
     std::stable_sort(

@@ -93,6 +93,22 @@ std::string nearest_words(const DiagnosisProblem& problem, const ModeDiagnosis& 
                        explanation_words(problem, mode, nearest));
 }
 
+/// What it means when deviations are too large but nothing about them is regular.
+std::string patternless_words(const DiagnosisProblem& problem, const Adequacy& adequacy) {
+    const double level = Adequacy::level_of_test(problem.alpha);
+    if (std::min({adequacy.p_battery, adequacy.p_score, adequacy.p_bad_data}) < level)
+        return "";
+    const double excess =
+        std::sqrt(adequacy.chi2 / static_cast<double>(adequacy.n - adequacy.parameters));
+    return fmt::format(
+        "The deviations are {:.1f} times their errors but follow no pattern by size, "
+        "shape "
+        "or velocity, and no single shot stands out: the stated errors may be too small, "
+        "or "
+        "shots of different metal may share a lot. ",
+        excess);
+}
+
 /// Wild shots beside whatever else was found.
 std::string wild_words(const DiagnosisProblem& problem, const Diagnosis& diagnosis) {
     if (!diagnosis.verdict.suspects.empty()) return "";
@@ -147,9 +163,9 @@ std::string finding_words(const DiagnosisProblem& problem, const Diagnosis& diag
                 "cause "
                 "is outside the list (smooth patterns without a cause gain ln Z "
                 "{:+.1f}). "
-                "{}{}",
-                mode.unlisted_gain, nearest_words(problem, mode),
-                unexplained_words(mode.unexplained));
+                "{}{}{}",
+                mode.unlisted_gain, patternless_words(problem, mode.adequacy),
+                nearest_words(problem, mode), unexplained_words(mode.unexplained));
         case VerdictKind::bad_data:
             return fmt::format(
                 "One measurement stands apart from all others: {} ({:.1f} "

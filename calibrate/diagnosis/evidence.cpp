@@ -137,6 +137,12 @@ Eigen::MatrixXd covariance_with(const DiagnosisProblem& problem,
     return covariance;
 }
 
+double log_average_without(const DiagnosisProblem& problem, const Whitening& whiten,
+                           const Refit& base) {
+    const Refit without = refit(problem, whiten, {}, base.unit, Eigen::VectorXd());
+    return log_average_likelihood(without, whiten.log_determinant());
+}
+
 Refit refit_with(const DiagnosisProblem& problem, std::optional<Whitening>& whiten,
                  const std::vector<std::size_t>& effects, const Refit& base) {
     Eigen::VectorXd start(static_cast<Eigen::Index>(effects.size()));
@@ -160,7 +166,7 @@ EffectEvidence effect_evidence(const DiagnosisProblem& problem, const Whitening&
     found.fit = refit_with(problem, own, {k}, base);
     const AmplitudeLikelihood grid =
         amplitude_likelihood(problem, *own, found.fit, candidate);
-    const double without = log_average_likelihood(base, whiten.log_determinant());
+    const double without = log_average_without(problem, *own, base);
     Eigen::VectorXd mass;
     const auto gain = [&](double factor) {
         return grid.log_integral(candidate, candidate.prior.widened(factor), mass) -
@@ -178,7 +184,7 @@ EffectEvidence effect_evidence(const DiagnosisProblem& problem, const Whitening&
 }
 
 double pair_evidence(const DiagnosisProblem& problem, const Whitening& whiten,
-                     const Refit& base, const Refit& fit, double log_determinant) {
+                     const Refit& base, const Refit& fit) {
     constexpr Eigen::Index points = 241;
     const Candidate& first = problem.candidates[fit.effects[0]];
     const Candidate& second = problem.candidates[fit.effects[1]];
@@ -212,8 +218,8 @@ double pair_evidence(const DiagnosisProblem& problem, const Whitening& whiten,
         }
     const double highest = log_mass.maxCoeff();
     const double cell = (a(1) - a(0)) * (b(1) - b(0));
-    return log_average_likelihood(fit, log_determinant) -
-           log_average_likelihood(base, whiten.log_determinant()) + highest +
+    return log_average_likelihood(fit, whiten.log_determinant()) -
+           log_average_without(problem, whiten, base) + highest +
            std::log((log_mass.array() - highest).exp().sum() * cell) -
            std::log(first.prior.mass(first.lower(), first.upper())) -
            std::log(second.prior.mass(second.lower(), second.upper()));

@@ -23,6 +23,11 @@ struct EffectEvidence {
 /// the data do not feel counts with its prior's width.
 double log_average_likelihood(const Refit& fit, double log_determinant);
 
+/// The same without any candidate, refitted from `base`. Under the errors of a
+/// candidate's signature, for the evidence of one must not come from wider errors.
+double log_average_without(const DiagnosisProblem& problem, const Whitening& whiten,
+                           const Refit& base);
+
 /// C with the errors of the effects' signatures at their amplitudes.
 Eigen::MatrixXd covariance_with(const DiagnosisProblem& problem,
                                 const std::vector<std::size_t>& effects,
@@ -33,15 +38,16 @@ Eigen::MatrixXd covariance_with(const DiagnosisProblem& problem,
 Refit refit_with(const DiagnosisProblem& problem, std::optional<Whitening>& whiten,
                  const std::vector<std::size_t>& effects, const Refit& base);
 
-/// ln Z_k - ln Z_0 by integrating over the amplitude the likelihood that is, at each of
-/// its values, refitted and averaged over the parameters; with the candidate's prior, cut
-/// to its physical range.
+/// ln Z_k - ln Z_0, both with the errors of its signature, by integrating over the
+/// amplitude the likelihood that is, at each of its values, refitted and averaged over
+/// the parameters; with the candidate's prior, cut to its physical range.
 EffectEvidence effect_evidence(const DiagnosisProblem& problem, const Whitening& whiten,
                                const Refit& base, std::size_t k);
 
 /// The same for two candidates at once: the likelihood quadratic about the fit, the
-/// priors as they are, integrated over both amplitudes.
+/// priors as they are, integrated over both amplitudes. `whiten`: as `refit_with` left
+/// it.
 double pair_evidence(const DiagnosisProblem& problem, const Whitening& whiten,
-                     const Refit& base, const Refit& fit, double log_determinant);
+                     const Refit& base, const Refit& fit);
 
 }  // namespace taylorcal::calibrate

@@ -1,6 +1,7 @@
 #include "solver/commands/batch.hpp"
 
 #include "common/errors.hpp"
+#include "common/program_code.hpp"
 #include "common/progress.hpp"
 #include "common/provenance.hpp"
 #include "solver/commands/journal.hpp"
@@ -51,7 +52,7 @@ nlohmann::json journal_header(const Design& design, const nlohmann::json& config
         for (const double value : values) inputs += fmt::format(" {}", value);
     }
     return {{"schema", "taylorcal/journal/1"},
-            {"solver_version", version()},
+            {"solver_code", program_code()},
             {"configuration_digest", digest(configuration.dump())},
             {"design_digest", digest(inputs)}};
 }

@@ -4,7 +4,6 @@ import re
 import time
 
 import psutil
-import pytest
 from tiny_study import NEW_ROW
 
 from print_summary import summary
@@ -52,57 +51,6 @@ def test_a_new_row_reruns_only_sampling_comparing_and_the_report(copied):
     assert done.returncode == 0, done.stdout
     assert "b2" in (copied.results / "comparison.json").read_text()
     assert copied.planned_rules() == set()
-
-
-def change(workspace, old: str, new: str) -> None:
-    path = workspace.study / "study.yaml"
-    text = path.read_text()
-    assert old in text
-    path.write_text(text.replace(old, new))
-
-
-@pytest.mark.parametrize(
-    "old, new, rerun",
-    [
-        ("draws: 2000", "draws: 3000", {"settings", "sample", "compare"}),
-        ("scope: per_lot", "scope: shared", {"settings", "sample", "compare"}),
-        ("epochs: 60", "epochs: 61", {"settings", "train", "sample", "compare"}),
-        ("title: Four shots", "title: Some shots", {"settings"}),
-        (
-            "fidelity: coarse",
-            "fidelity: standard",
-            {"settings", "runs", "merge", "train", "sample", "compare"},
-        ),
-        ("runs: 24", "runs: 26", {"design", "runs", "merge", "train", "sample", "compare"}),
-    ],
-)
-def test_a_changed_setting_reruns_its_stage_and_what_follows(copied, old, new, rerun):
-    change(copied, old, new)
-    assert copied.planned_rules() == rerun | ALL
-
-
-def test_a_comment_in_the_study_reruns_nothing(copied):
-    change(copied, "title:", "# a remark\ntitle:")
-    assert copied.planned_rules() == set()
-
-
-def test_touching_the_table_reruns_nothing(copied):
-    (copied.study / "measurements.csv").touch()
-    assert copied.planned_rules() == set()
-
-
-def test_a_rebuilt_solver_reruns_the_database(copied):
-    build = copied.folder / "build"
-    real = build.resolve()
-    build.unlink()
-    (build / "bin").mkdir(parents=True)
-    for program in (real / "bin").iterdir():
-        (build / "bin" / program.name).symlink_to(program)
-    solver = build / "bin" / "solver"
-    content = solver.read_bytes()
-    solver.unlink()
-    solver.write_bytes(content)
-    assert {"runs", "merge", "train", "sample", "compare"} <= copied.planned_rules()
 
 
 def test_a_bad_table_stops_before_anything_runs(fresh):

@@ -107,6 +107,7 @@ def test_numbers_have_names_and_units(full):
     assert "Back stress H X 190 MPa 70.4 to 310 +3.1 +2.8" in text
     assert "Dynamic recovery parameters imitate it k 2 – – +0.4 – – – 0.06" in text
     assert "Thermal softening wrong sign" in text
+    assert "without any cause, gains +12.5 in ln Z" in text
     shot = "truncated cone 124 8 5 300 4.8"
     assert shot in section(full[0], "next")
 

@@ -35,6 +35,21 @@ def refusal(tmp_path, old: str, new: str) -> str:
         ("[100, 210]", "[210, 100]", ["velocity_m_s = [210, 100]", "lowest value first"]),
         ("[100, 210]", "[100, 210, 300]", ["a list with a length of at most 2"]),
         ("upper: 5,", "upper: 1,", ["hardening_coefficient has the range 1 to 1"]),
+        (
+            "  runs: 24",
+            "  runs: 24\n  parameters: { hardening_coefficient: [2, 6] }",
+            ["database.parameters.hardening_coefficient = [2, 6]", "1 to 5", "Widen it"],
+        ),
+        (
+            "  runs: 24",
+            "  runs: 24\n  parameters: { immobilization_velocity: [0, 5] }",
+            ["database.parameters.immobilization_velocity is not calibrated"],
+        ),
+        (
+            "  runs: 24",
+            "  runs: 24\n  parameters: { rho_immobile_initial: [0, 1.0e+14] }",
+            ["database.parameters.rho_immobile_initial"],
+        ),
         ("chunks: 2", "chunks: 25", ["database.chunks is more than `runs`"]),
         ("  draws: 2000\n", "", ["calibration.draws is missing"]),
         ("title: Four shots\n", "", ["title is missing"]),

@@ -1,22 +1,22 @@
 """`taylorcal why` tells the stages that would run, and the cause in the study's own words."""
 
-import os
 import subprocess
 
 import pytest
-from tiny_study import NEW_ROW, ROOT
+from tiny_study import NEW_ROW, ROOT, use_own_workflow, use_stand_ins
 
 from measurements import read_measurements
 from why.causes import Causes
-from why.changes import recorded_settings, settings_changes, table_changes
+from why.changes import settings_changes, table_changes
 from why.plan import Job, parsed_reasons
+from why.records import recorded_settings
 from why.runs import runs_words
 
 SIZES = ["final_length_mm", "impact_diameter_mm"]
 
 
-def why(workspace) -> str:
-    command = [ROOT / "workflow" / "taylorcal", "why", "tiny"]
+def why(workspace, root=ROOT) -> str:
+    command = [root / "workflow" / "taylorcal", "why", "tiny"]
     streams = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT}
     told = subprocess.run(command, cwd=workspace.folder, text=True, **streams)
     assert told.returncode == 0, told.stdout
@@ -64,33 +64,35 @@ def test_changed_settings_and_a_result_removed_are_named(copied):
     assert found["writing the report"][0] == "its result is not there: results/tiny/report.html"
 
 
-def test_a_rebuilt_program_and_a_newer_script_are_named(copied):
-    """The scripts are the repository's, so a settings file is made older than they are."""
-    build = copied.folder / "build"
-    real = build.resolve()
-    build.unlink()
-    (build / "bin").mkdir(parents=True)
-    for name in ("solver", "emulator", "calibrate"):
-        (build / "bin" / name).symlink_to(real / "bin" / name)
-    program = build / "bin" / "calibrate"
-    content = program.read_bytes()
-    program.unlink()
-    program.write_bytes(content)
-    os.utime(copied.results / "config" / "report.json", (1, 1))
-    found = causes(why(copied))
-    assert found["sampling the posterior"] == ["the program calibrate was rebuilt"]
+def test_code_that_changed_is_named_also_where_a_stage_follows_anyway(copied):
+    use_stand_ins(copied, dict.fromkeys(["emulator", "calibrate"], "0123456789abcdef"))
+    use_own_workflow(copied)
+    writer = copied.folder / "workflow" / "scripts" / "write_settings.py"
+    writer.write_text(writer.read_text().replace("indent=2", "indent=4"))
+    found = causes(why(copied, copied.folder))
+    settings = "workflow/scripts/write_settings.py, or a module that it imports, changed"
+    assert f"its settings are written anew: {settings}" in found["training the network"]
+    assert "the program emulator changed" in found["training the network"]
+    assert "the program calibrate changed" in found["sampling the posterior"]
     assert "choosing the runs of the database" not in found
-    script = "workflow/scripts/write_settings.py changed, or was checked out anew, after the result"
-    assert f"its settings are written anew: {script}" in found["writing the report"]
 
 
-def test_the_code_of_a_stage_is_named(finished, tiny_study, monkeypatch):
+def test_a_narrower_range_of_the_runs_is_told_with_its_remedy(copied):
+    study = copied.study / "study.yaml"
+    study.write_text(study.read_text().replace("lower: 1, upper: 5", "lower: 1.5, upper: 4"))
+    changed, remedy = causes(why(copied))["choosing the runs of the database"]
+    assert "parameters.hardening_coefficient.upper 5 -> 4" in changed
+    assert remedy.endswith("with `hardening_coefficient: [1, 5]` in database.parameters")
+
+
+def test_results_of_an_earlier_taylorcal_are_told_as_such(finished, tiny_study, monkeypatch):
     monkeypatch.chdir(finished.folder)
     told = Causes(tiny_study, finished.study / "measurements.csv", [], [])
-    (script,) = told.own(Job("design", {"study": "tiny"}, []), "code", [])
-    assert script.startswith("workflow/scripts/make_design.py changed")
-    (command,) = told.own(Job("train", {"study": "tiny"}, [], has_command=True), "code", [])
-    assert command == "its command changed: the rule train in workflow/rules"
+    old = Job("train", {"study": "tiny"}, ["results/tiny/of_an_earlier_version.json"])
+    assert told.own(old, "code", []) == []
+    assert told.own(old, "settings", [])[0].startswith("an earlier taylorcal made it")
+    new = Job("train", {"study": "tiny"}, ["results/tiny/emulator.json"])
+    assert told.own(new, "code", []) == ["the rule train in workflow/rules changed"]
 
 
 def test_a_bad_table_is_refused_before_anything_is_planned(fresh):
@@ -147,13 +149,13 @@ def test_reasons_are_sorted_and_unknown_ones_kept():
 def test_runs_in_the_journal_of_a_stopped_batch_are_told(tmp_path):
     out = tmp_path / "0.h5"
     (tmp_path / "0.h5.journal.jsonl").write_text("{}\n{}\n{}\n")
-    stopped = Job("runs", {}, [str(out)], {"missing": [str(out)]}, True, 12)
+    stopped = Job("runs", {}, [str(out)], {"missing": [str(out)]}, 12)
     assert runs_words([stopped], []) == (
         "with 12 runs of the solver (2 of them are in the journal of a batch that was stopped)"
     )
-    begun_anew = Job("runs", {}, [str(out)], {"follows": ["design.h5"]}, True, 12)
+    begun_anew = Job("runs", {}, [str(out)], {"follows": ["design.h5"]}, 12)
     assert runs_words([begun_anew], []) == "with 12 runs of the solver"
-    confirmed = Job("confirmation_runs", {}, [str(out)], {}, True)
+    confirmed = Job("confirmation_runs", {}, [str(out)], {})
     assert runs_words([confirmed], [{"use": "validate"}, {"use": "ignore"}]).startswith(
         "with 1 run "
     )

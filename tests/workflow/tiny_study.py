@@ -109,3 +109,33 @@ def make_workspace(folder: Path, build: Path) -> Workspace:
     workspace = Workspace(folder)
     write_study(workspace.study)
     return workspace
+
+
+def use_own_workflow(workspace: Workspace) -> None:
+    """Copies of the Snakefile and the workflow, which a test may change."""
+    for name in ("Snakefile", "workflow"):
+        path = workspace.folder / name
+        if path.is_symlink():
+            source = path.resolve()
+            path.unlink()
+            copy = shutil.copytree if source.is_dir() else shutil.copy2
+            copy(source, path)
+
+
+def use_stand_ins(workspace: Workspace, codes: dict[str, str]) -> None:
+    """Programs as if rebuilt from another commit: with new dates, another revision and the same
+    digest of their sources, but for those whose digest `codes` names. They call the real ones.
+    """
+    build = workspace.folder / "build"
+    real = build.resolve() / "bin"
+    build.unlink()
+    (build / "bin").mkdir(parents=True)
+    for name in ("solver", "emulator", "calibrate"):
+        told = subprocess.run([real / name, "--version"], capture_output=True, text=True).stdout
+        code = codes.get(name, told.split()[-1])
+        answer = f"{name} 0.1.0 (0000000000), code {code}"
+        program = build / "bin" / name
+        program.write_text(
+            f'#!/bin/sh\n[ "$1" = --version ] && echo "{answer}" || exec {real / name} "$@"\n'
+        )
+        program.chmod(0o755)

@@ -8,6 +8,7 @@ from snakemake.utils import min_version
 
 sys.path.insert(0, str(Path(workflow.basedir) / "workflow" / "scripts"))
 
+from code_digest import code_of
 from effects import check_effects, solver_list
 from input_errors import InputError
 from measurements import check_against_study, read_measurements
@@ -48,6 +49,13 @@ def study_of(home):
     except InputError as error:
         raise WorkflowError(str(error))
     return study
+
+
+def python_script(name):
+    """Parameters that stand for a script, which is then "../scripts/{params.script}": one that
+    is named outright counts as changed whenever a checkout wrote it anew.
+    """
+    return {"script": name, "code": code_of(name)}
 
 
 def homes_of_study(name):

@@ -1,6 +1,6 @@
 rule compare:
     input:
-        program="build/bin/calibrate",
+        program=ancient("build/bin/calibrate"),
         posterior="results/{study}/posterior.h5",
         emulator="results/{study}/emulator.json",
         measurements=fitted_table_of,
@@ -11,6 +11,8 @@ rule compare:
         "results/{study}/logs/compare.log",
     benchmark:
         "results/{study}/benchmarks/compare.tsv"
+    params:
+        code=code_of("calibrate"),
     shell:
         "{input.program} compare --posterior {input.posterior} --emulator {input.emulator}"
         " --measurements {input.measurements} --config {input.settings} --out {output} > {log} 2>&1"

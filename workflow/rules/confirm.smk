@@ -10,13 +10,14 @@ rule confirmation_design:
         "results/{study}/logs/confirmation_design.log",
     params:
         seed=lambda wildcards: study_of(wildcards.study)["database"]["seed"],
+        **python_script("make_confirmation_design.py"),
     script:
-        "../scripts/make_confirmation_design.py"
+        "../scripts/{params.script}"
 
 
 rule confirmation_runs:
     input:
-        program="build/bin/solver",
+        program=ancient("build/bin/solver"),
         design="results/{study}/confirmation_design.h5",
         settings="results/{study}/config/solver.json",
     output:
@@ -25,6 +26,8 @@ rule confirmation_runs:
         "results/{study}/logs/confirmation_runs.log",
     benchmark:
         "results/{study}/benchmarks/confirmation_runs.tsv"
+    params:
+        code=code_of("solver"),
     threads: workflow.cores
     shell:
         "{input.program} batch {input.design} --config {input.settings} --out {output}"
@@ -40,5 +43,7 @@ rule confirm:
         "results/{study}/confirmation.json",
     log:
         "results/{study}/logs/confirm.log",
+    params:
+        **python_script("make_confirmation.py"),
     script:
-        "../scripts/make_confirmation.py"
+        "../scripts/{params.script}"

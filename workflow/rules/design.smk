@@ -5,8 +5,9 @@ rule settings:
         "results/{study}/logs/settings_{stage}.log",
     params:
         settings=stage_settings,
+        **python_script("write_settings.py"),
     script:
-        "../scripts/write_settings.py"
+        "../scripts/{params.script}"
 
 
 rule design:
@@ -18,5 +19,6 @@ rule design:
         "results/{study}/benchmarks/design.tsv"
     params:
         settings=design_settings_of,
+        **python_script("make_design.py"),
     script:
-        "../scripts/make_design.py"
+        "../scripts/{params.script}"

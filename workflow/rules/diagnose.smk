@@ -7,8 +7,9 @@ rule candidates:
         "results/{study}/logs/candidates.log",
     params:
         settings=candidates_of,
+        **python_script("write_settings.py"),
     script:
-        "../scripts/write_settings.py"
+        "../scripts/{params.script}"
 
 
 rule signature_design:
@@ -24,13 +25,14 @@ rule signature_design:
         "results/{study}/logs/signature_design.log",
     params:
         settings=signature_settings,
+        **python_script("make_signature_design.py"),
     script:
-        "../scripts/make_signature_design.py"
+        "../scripts/{params.script}"
 
 
 rule signature_runs:
     input:
-        program="build/bin/solver",
+        program=ancient("build/bin/solver"),
         design="results/{study}/signature_design.h5",
         settings="results/{study}/config/solver.json",
     output:
@@ -40,6 +42,7 @@ rule signature_runs:
     benchmark:
         "results/{study}/benchmarks/signature_runs_{chunk}.tsv"
     params:
+        code=code_of("solver"),
         rows=signature_rows_of_chunk,
     threads: workflow.cores
     shell:
@@ -49,19 +52,21 @@ rule signature_runs:
 
 rule signatures:
     input:
-        program="build/bin/solver",
+        program=ancient("build/bin/solver"),
         chunks=signature_chunks_of,
     output:
         "results/{study}/signatures.h5",
     log:
         "results/{study}/logs/signatures.log",
+    params:
+        code=code_of("solver"),
     shell:
         "{input.program} merge {input.chunks} --out {output} > {log} 2>&1"
 
 
 rule signatures_finer:
     input:
-        program="build/bin/solver",
+        program=ancient("build/bin/solver"),
         design="results/{study}/signature_design_finer.h5",
         settings="results/{study}/config/solver_finer.json",
     output:
@@ -70,6 +75,8 @@ rule signatures_finer:
         "results/{study}/logs/signatures_finer.log",
     benchmark:
         "results/{study}/benchmarks/signatures_finer.tsv"
+    params:
+        code=code_of("solver"),
     threads: workflow.cores
     shell:
         "{input.program} batch {input.design} --config {input.settings} --out {output}"
@@ -78,7 +85,7 @@ rule signatures_finer:
 
 rule diagnose:
     input:
-        program="build/bin/calibrate",
+        program=ancient("build/bin/calibrate"),
         emulator="results/{study}/emulator.json",
         measurements=fitted_table_of,
         settings="results/{study}/config/calibrate.json",
@@ -93,6 +100,7 @@ rule diagnose:
     benchmark:
         "results/{study}/benchmarks/diagnose.tsv"
     params:
+        code=code_of("calibrate"),
         finer=lambda wildcards, input: f"--finer {input.finer}" if input.finer else "",
     threads: workflow.cores
     shell:
@@ -104,7 +112,7 @@ rule diagnose:
 
 rule next_experiment:
     input:
-        program="build/bin/calibrate",
+        program=ancient("build/bin/calibrate"),
         diagnosis="results/{study}/diagnosis.json",
         emulator="results/{study}/emulator.json",
         measurements=fitted_table_of,
@@ -120,6 +128,7 @@ rule next_experiment:
     benchmark:
         "results/{study}/benchmarks/next_experiment.tsv"
     params:
+        code=code_of("calibrate"),
         finer=lambda wildcards, input: f"--finer {input.finer}" if input.finer else "",
     shell:
         "{input.program} design --diagnosis {input.diagnosis} --emulator {input.emulator}"

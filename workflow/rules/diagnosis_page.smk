@@ -20,5 +20,6 @@ rule diagnosis_page:
         "results/{study}/logs/diagnosis_page.log",
     params:
         revisions=revisions_of_page,
+        **python_script("make_diagnosis_page.py"),
     script:
-        "../scripts/make_diagnosis_page.py"
+        "../scripts/{params.script}"

@@ -1,6 +1,6 @@
 rule train:
     input:
-        program="build/bin/emulator",
+        program=ancient("build/bin/emulator"),
         database=with_scores("database"),
         previous=previous("emulator.json"),
         settings="results/{study}/config/train.json",
@@ -11,6 +11,7 @@ rule train:
     benchmark:
         "results/{study}/benchmarks/train.tsv"
     params:
+        code=code_of("emulator"),
         start=lambda wildcards, input: f"--from {input.previous}" if input.previous else "",
     threads: workflow.cores
     shell:

@@ -11,5 +11,6 @@ rule ladder:
         "results/{name}/logs/ladder.log",
     params:
         effects=lambda wildcards: study_of(wildcards.name)["effects"],
+        **python_script("make_ladder.py"),
     script:
-        "../scripts/make_ladder.py"
+        "../scripts/{params.script}"

@@ -9,8 +9,10 @@ rule outline_basis:
         "results/{study}/logs/outline_basis.log",
     benchmark:
         "results/{study}/benchmarks/outline_basis.tsv"
+    params:
+        **python_script("make_outline_basis.py"),
     script:
-        "../scripts/make_outline_basis.py"
+        "../scripts/{params.script}"
 
 
 rule score_database:
@@ -23,8 +25,10 @@ rule score_database:
         "results/{study}/logs/score_{name}.log",
     benchmark:
         "results/{study}/benchmarks/score_{name}.tsv"
+    params:
+        **python_script("score_database.py"),
     script:
-        "../scripts/score_database.py"
+        "../scripts/{params.script}"
 
 
 rule score_measurements:
@@ -41,5 +45,6 @@ rule score_measurements:
         "results/{study}/benchmarks/score_measurements.tsv"
     params:
         errors=outline_errors_of,
+        **python_script("score_measurements.py"),
     script:
-        "../scripts/score_measurements.py"
+        "../scripts/{params.script}"

@@ -20,5 +20,6 @@ rule report:
         "results/{study}/benchmarks/report.tsv"
     params:
         benchmarks=benchmarks_of,
+        **python_script("make_report.py"),
     script:
-        "../scripts/make_report.py"
+        "../scripts/{params.script}"

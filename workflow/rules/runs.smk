@@ -3,7 +3,7 @@
 # chunk goes on from {chunk}.h5.journal.jsonl, which is not an output on purpose.
 rule runs:
     input:
-        program="build/bin/solver",
+        program=ancient("build/bin/solver"),
         design="results/{study}/design.h5",
         settings="results/{study}/config/solver.json",
     output:
@@ -13,6 +13,7 @@ rule runs:
     benchmark:
         "results/{study}/benchmarks/runs_{chunk}.tsv"
     params:
+        code=code_of("solver"),
         rows=rows_of_chunk,
     threads: workflow.cores
     shell:
@@ -22,7 +23,7 @@ rule runs:
 
 rule merge:
     input:
-        program="build/bin/solver",
+        program=ancient("build/bin/solver"),
         previous=previous("database.h5"),
         chunks=chunks_of,
     output:
@@ -32,6 +33,7 @@ rule merge:
     benchmark:
         "results/{study}/benchmarks/merge.tsv"
     params:
+        code=code_of("solver"),
         # The runs of the revision before have no column of the effect: its amplitude is 0.
         effects=zero_inputs_of,
     shell:

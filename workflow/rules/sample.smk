@@ -1,6 +1,6 @@
 rule sample:
     input:
-        program="build/bin/calibrate",
+        program=ancient("build/bin/calibrate"),
         emulator="results/{study}/emulator.json",
         measurements=fitted_table_of,
         settings="results/{study}/config/calibrate.json",
@@ -10,6 +10,8 @@ rule sample:
         "results/{study}/logs/sample.log",
     benchmark:
         "results/{study}/benchmarks/sample.tsv"
+    params:
+        code=code_of("calibrate"),
     threads: workflow.cores
     shell:
         "{input.program} sample --emulator {input.emulator} --measurements {input.measurements}"

@@ -5,7 +5,6 @@ from pathlib import Path
 
 import h5py
 import numpy as np
-from scipy.stats import qmc
 
 from stage_log import logged_to
 
@@ -53,6 +52,9 @@ def _interleaved_sobol(dimensions: int, runs: int, shapes: int, seed: list[int])
     n mod `shapes`. The cube is a little smaller than the sequence's, and points beyond it are
     moved to its faces: a network that has seen the ends of a range need not extrapolate.
     """
+    # Here, since the rules import this module and are to be read without this slow one.
+    from scipy.stats import qmc
+
     points = np.empty((runs, dimensions))
     for shape in range(shapes):
         rows = len(range(shape, runs, shapes))

@@ -72,6 +72,7 @@ def _contradictions(study: dict) -> list[tuple[tuple, str]]:
             found.append((key, f"has the range {limits} (expected lower < upper)."))
         if parameter["prior"] == "log_uniform" and parameter["lower"] <= 0:
             found.append((key, "has prior log_uniform from 0 (expected lower > 0)."))
+    found += _uncovered_priors(study)
     if study["database"]["chunks"] > study["database"]["runs"]:
         found.append((("database", "chunks"), "is more than `runs` (expected at most as many)."))
     for size in study["calibration"]["fit_sizes"]:
@@ -80,6 +81,24 @@ def _contradictions(study: dict) -> list[tuple[tuple, str]]:
             found.append((("calibration", "fit_sizes"), problem))
     if study["synthetic"] and not study["synthetic_note"]:
         found.append((("synthetic_note",), "is missing; say how the synthetic table was made."))
+    return found
+
+
+def _uncovered_priors(study: dict) -> list[tuple[tuple, str]]:
+    """The network answers only where it has seen runs."""
+    found = []
+    for name, (lowest, highest) in study["database"]["parameters"].items():
+        key = ("database", "parameters", name)
+        if name not in study["parameters"]:
+            found.append((key, "is not calibrated (expected a name of `parameters`). Drop it."))
+            continue
+        prior = study["parameters"][name]
+        if not lowest <= prior["lower"] <= prior["upper"] <= highest:
+            limits = f"{prior['lower']} to {prior['upper']}"
+            problem = f"= [{lowest}, {highest}] does not cover the prior, {limits}. Widen it."
+            found.append((key, problem))
+        if prior["prior"] == "log_uniform" and lowest <= 0:
+            found.append((key, f"= [{lowest}, {highest}] has no logarithms (expected above 0)."))
     return found
 
 
@@ -97,7 +116,7 @@ def design_settings(study: dict) -> dict:
     """What the design of the database depends on."""
     database = study["database"]
     parameters = {
-        name: {key: parameter[key] for key in ("lower", "upper", "prior")}
+        name: {**covered_range(name, study), "prior": parameter["prior"]}
         for name, parameter in study["parameters"].items()
     }
     settings = {key: database[key] for key in ("seed", "shapes")}
@@ -111,6 +130,13 @@ def design_settings(study: dict) -> dict:
             for effect in study["revision"]
         }
     return settings
+
+
+def covered_range(name: str, study: dict) -> dict:
+    """Range of a parameter that the runs cover: that of its prior, unless `database` says more."""
+    prior = study["parameters"][name]
+    lower, upper = study["database"]["parameters"].get(name, (prior["lower"], prior["upper"]))
+    return {"lower": lower, "upper": upper}
 
 
 def new_runs(study: dict) -> int:

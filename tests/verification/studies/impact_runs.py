@@ -5,7 +5,6 @@ A further part `hourglass0.15` or `viscosity0.5` scales that coefficient.
 
 import json
 import re
-import subprocess
 from pathlib import Path
 
 SHAPES = ["uniform_cylinder", "reduced_head_4mm", "reduced_head_3mm", "truncated_cone"]
@@ -57,12 +56,6 @@ def arguments_of(wildcards):
         f"--shape {parts['shape']} --velocity {parts['velocity']} --seed {parts['seed']}",
     ]
     return " ".join(words + [f"--numerics {key}={value}" for key, value in numerics.items()])
-
-
-def solver_version(wildcards):
-    """What `solver --version` says: another version computes the runs again."""
-    command = ["build/bin/solver", "--version"]
-    return subprocess.run(command, check=True, capture_output=True, text=True).stdout
 
 
 def files_of(names):

@@ -1,13 +1,13 @@
 """Turns Snakemake's reasons into causes that a user of the study knows."""
 
-import re
 from pathlib import Path
 
 from effects import solver_list
 from revisions import split_home
 from study import STAGE_SETTINGS, at_revision, design_settings
-from why.changes import recorded_settings, settings_changes, table_changes
+from why.changes import narrowed_ranges, settings_changes, table_changes
 from why.plan import Job
+from why.records import code_changes, recorded_codes, recorded_settings
 
 RULES = Path("workflow") / "rules"
 LISTED = 3  # files or changes named in a line; the rest are counted
@@ -33,9 +33,11 @@ class Causes:
         if kind == "files":
             return ["other files go into it than before"]
         if kind == "code":
-            return [_of_code(job)]
+            # A result of an earlier taylorcal is told as such, by its parameters.
+            noted = recorded_codes(job.outputs[0])
+            return [f"the rule {job.rule} in {RULES} changed"] if noted else []
         if kind == "settings":
-            return [self._of_design(job)]
+            return self._of_parameters(job)
         return [f"snakemake says: {kind}"]
 
     def of_settings(self, file: str) -> list[str]:
@@ -53,18 +55,17 @@ class Causes:
         return [f"its settings are written anew: {cause}" for cause in own]
 
     def masked(self, job: Job, told: list[str]) -> list[str]:
-        """Rows that changed where Snakemake stopped at its first reason."""
-        if job.rule != "sample" or any("measurements" in cause for cause in told):
-            return []
-        return self._of_table(job)
+        """Code and rows that changed where Snakemake stopped at its first reason."""
+        found = [] if "missing" in job.reasons else code_changes(job.outputs[0])
+        if job.rule == "sample" and not any("measurements" in cause for cause in told):
+            found += self._of_table(job)
+        return found
 
     def _of_file(self, job: Job, file: str) -> list[str]:
         path = Path(file)
         if path == self.table:
             unseen = "though no number that is fitted did" if self._comparison(job).exists() else ""
             return self._of_table(job) or [f"{file} changed {unseen}".strip()]
-        if path.is_relative_to("build/bin"):
-            return [f"the program {path.name} was rebuilt"]
         if path.is_relative_to("workflow/report"):
             return [f"the page's template {file} changed"]
         if path.is_relative_to(self.table.parent):
@@ -79,28 +80,31 @@ class Causes:
     def _comparison(self, job: Job) -> Path:
         return Path("results") / job.wildcards["study"] / "comparison.json"
 
-    def _of_design(self, job: Job) -> str:
-        before = recorded_settings(job.outputs[0]) if job.rule == "design" else None
-        if before is None:
-            return "its share of the runs, or another setting in study.yaml, changed"
-        changes = settings_changes(before, design_settings(self._study_at(job.wildcards["study"])))
-        return f"the database that study.yaml asks for changed: {listed(changes)}"
+    def _of_parameters(self, job: Job) -> list[str]:
+        """A rule's parameters: digests of the code, settings, and the share of the runs."""
+        output = job.outputs[0]
+        if not recorded_codes(output):
+            return ["an earlier taylorcal made it, which did not note the code that it ran"]
+        found = code_changes(output)
+        if job.rule == "design":
+            found += self._of_design(output, job.wildcards["study"])
+        return found or ["its share of the runs, or another setting in study.yaml, changed"]
+
+    def _of_design(self, output: str, home: str) -> list[str]:
+        before, after = recorded_settings(output), design_settings(self._study_at(home))
+        changes = settings_changes(before, after)
+        if not changes:
+            return []
+        found = [f"the database that study.yaml asks for changed: {listed(changes)}"]
+        narrowed = narrowed_ranges(before["parameters"], after["parameters"])
+        for name, limits in narrowed.items():
+            found.append(f"its runs would serve with `{name}: {limits}` in database.parameters")
+        return found
 
     def _study_at(self, home: str) -> dict:
         effects = split_home(home)[1]
         known = solver_list("effects") if effects else {}
         return at_revision(self.study, [known[name] for name in effects])
-
-
-def _of_code(job: Job) -> str:
-    if job.has_command:
-        return f"its command changed: the rule {job.rule} in {RULES}"
-    text = "".join(path.read_text(encoding="utf-8") for path in sorted(RULES.glob("*.smk")))
-    found = re.search(
-        rf"^rule {job.rule}:(?:(?!^rule ).)*?/scripts/([\w/]+\.py)", text, re.M | re.S
-    )
-    script = f"workflow/scripts/{found[1]}" if found else "its script"
-    return f"{script} changed, or was checked out anew, after the result"
 
 
 def listed(items: list[str]) -> str:

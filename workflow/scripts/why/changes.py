@@ -1,25 +1,9 @@
 """What changed since the results were made: settings and rows of the table."""
 
-import ast
-import base64
-import json
 from pathlib import Path
 
 from json_file import read_json
 from new_rows.repeats import INPUTS
-
-METADATA = Path(".snakemake") / "metadata"
-
-
-def recorded_settings(output: str) -> dict | None:
-    """The settings that Snakemake noted when it made a file; None if it did not, or not a dict."""
-    record = METADATA / base64.urlsafe_b64encode(output.encode()).decode()
-    try:
-        (text,) = json.loads(record.read_text(encoding="utf-8"))["params"]
-        settings = ast.literal_eval(text)
-    except (OSError, ValueError, SyntaxError):
-        return None
-    return settings if isinstance(settings, dict) else None
 
 
 def settings_changes(before, after, key: str = "") -> list[str]:
@@ -43,6 +27,17 @@ def _by_name(value):
     if isinstance(value, list) and value and all(isinstance(v, dict) for v in value):
         return {entry.get("name", place): entry for place, entry in enumerate(value)}
     return value
+
+
+def narrowed_ranges(before: dict, after: dict) -> dict[str, list]:
+    """Ranges of the parameters' runs that would do though `after` asks for narrower ones."""
+    return {
+        name: [old["lower"], old["upper"]]
+        for name, old in before.items()
+        if name in after
+        and (after[name]["lower"], after[name]["upper"]) != (old["lower"], old["upper"])
+        and old["lower"] <= after[name]["lower"] < after[name]["upper"] <= old["upper"]
+    }
 
 
 def table_changes(rows: list[dict], comparison: Path, sizes: list[str]) -> list[str]:

@@ -34,7 +34,6 @@ class Job:
     wildcards: dict[str, str]
     outputs: list[str]
     reasons: dict[str, list[str]] = field(default_factory=dict)
-    has_command: bool = False
     rows: int | None = None
 
     @property
@@ -56,7 +55,6 @@ def planned_jobs(command: list[str]) -> list[Job]:
             continue
         told = json.loads(line.removeprefix(MARK))
         if "shell" in told:
-            jobs[-1].has_command = True
             rows = re.search(r"--rows (\d+):(\d+)", told["shell"])
             jobs[-1].rows = int(rows[2]) - int(rows[1]) if rows else None
         else:

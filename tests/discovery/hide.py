@@ -9,6 +9,7 @@ import argparse
 import json
 from pathlib import Path
 
+import h5py
 import numpy as np
 from hidden_signal import SignalTable, drawn_amplitude, visible_amplitude
 from make_design import write_design
@@ -18,9 +19,10 @@ from signature_model import SignatureModel, read_pairs
 from specimens import TRUTHS, design_of, shot_set
 
 # Standard errors of the measurements alone: the solver's own take a third of it and more.
-# Amplitudes from the prior stay below those of the pairs: a fit that ends beyond its pairs asks
-# for others, which a user would compute and these tables cannot.
 SIGMAS = {SIX_SIGMA: 10.0, STRONG: 20.0, FROM_PRIOR: 12.0}
+# What is listed stays below the amplitudes of its pairs: a fit that ends beyond them asks for
+# others, which a user would compute and these tables cannot.
+BELOW_PAIRS = 0.9
 WITHIN = 0.95  # share of an effect's range that is used
 
 
@@ -32,6 +34,14 @@ def read_signatures(path: Path, candidates: list[dict], network: Network) -> Sig
     """Signatures of all candidates from the paired runs in `path`."""
     pairs = read_pairs(path, candidates, list(TRUTHS), network.outputs)
     return SignatureModel(pairs, list(TRUTHS))
+
+
+def largest_amplitude(pairs: Path, candidate: dict) -> float:
+    """Of a candidate among its pairs of runs."""
+    with h5py.File(pairs) as file:
+        names = [str(name) for name in file["inputs"].attrs["names"]]
+        values = file["inputs"][:, names.index(candidate["name"])]
+    return float(np.abs(values - candidate["base"]).max())
 
 
 def amplitudes(variant: Variant, study: Path, pairs: Path) -> dict[str, float]:
@@ -48,6 +58,8 @@ def amplitudes(variant: Variant, study: Path, pairs: Path) -> dict[str, float]:
         size = visible_amplitude(table, signatures, candidate, SIGMAS[variant.strength])
         if variant.strength == FROM_PRIOR:
             size = min(size, drawn_amplitude(candidate, random))
+        if variant.strength != STRONG:
+            size = min(size, BELOW_PAIRS * largest_amplitude(pairs, candidate))
         limits = WITHIN * candidate["lowest"], WITHIN * candidate["highest"]
         found[name] = float(np.clip(sign * size, *limits))
     return found

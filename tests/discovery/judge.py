@@ -4,8 +4,10 @@ Each question has the tables that it is asked of, what counts as success, and th
 acceptance wants: at least, at most, or between.
 """
 
+import json
+from collections import defaultdict
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from intervals import clopper_pearson
@@ -24,6 +26,7 @@ class Case:
     truth: dict
     diagnosis: dict
     refit: dict | None = None
+    left_sd: float = 0.0  # of `left_over`
 
     @property
     def verdict(self) -> dict:
@@ -77,6 +80,33 @@ class Case:
     def candidate(self, name: str) -> dict | None:
         found = [item for item in self.diagnosis["candidates"] if item["name"] == name]
         return found[0] if found else None
+
+
+def left_over(cases: list[Case]) -> list[Case]:
+    """The cases with what their hidden effect leaves after the parameters are fitted anew.
+
+    In standard errors: the root of how much chi^2 of the tables with the same effect and metal
+    exceeds that of the metal's tables with nothing hidden, both averaged over their noises.
+    """
+
+    def metal(case: Case) -> tuple:
+        return tuple(case.truth["parameters"].values())
+
+    def mean_chi2(chosen: list[Case]) -> float:
+        return float(np.mean([case.diagnosis["adequacy"]["chi2"] for case in chosen]))
+
+    nulls, alike = defaultdict(list), defaultdict(list)
+    for case in cases:
+        if case.kind == "null":
+            nulls[metal(case)].append(case)
+        elif case.kind == "effect":
+            alike[metal(case), json.dumps(case.truth["effects"])].append(case)
+    left = {}
+    for (of_metal, _), chosen in alike.items():
+        if nulls[of_metal]:
+            excess = mean_chi2(chosen) - mean_chi2(nulls[of_metal])
+            left |= {case.id: max(excess, 0.0) ** 0.5 for case in chosen}
+    return [replace(case, left_sd=left.get(case.id, 0.0)) for case in cases]
 
 
 @dataclass(frozen=True)
@@ -163,6 +193,10 @@ def _visible_effect(case: Case) -> bool:
     return case.kind == "effect" and case.is_visible
 
 
+def _leaves_misfit(case: Case) -> bool:
+    return case.kind == "effect" and case.left_sd >= VISIBLE
+
+
 def _named_rightly(case: Case) -> bool:
     """An effect was added, and it is the hidden one."""
     return case.kind == "effect" and case.refit is not None and case.refit["effect"] in case.hidden
@@ -198,6 +232,18 @@ QUESTIONS = [
     Question(
         "flagged: the hidden effect is in the set",
         lambda case: _visible_effect(case) and _flagged(case),
+        _hits_set,
+        0.95,
+    ),
+    Question(
+        "an effect that leaves 6 standard errors after a refit is flagged",
+        _leaves_misfit,
+        _flagged,
+        0.85,
+    ),
+    Question(
+        "one that leaves 6 standard errors, flagged: it is in the set",
+        lambda case: _leaves_misfit(case) and _flagged(case),
         _hits_set,
         0.95,
     ),

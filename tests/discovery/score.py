@@ -10,7 +10,7 @@ import json
 from collections import Counter
 from pathlib import Path
 
-from judge import Answer, Case, answers
+from judge import Answer, Case, answers, left_over
 from score_figure import draw
 
 
@@ -24,7 +24,7 @@ def read_cases(tables: Path, sealed: Path, refits: Path) -> list[Case]:
         name = path.parent.name
         truth = json.loads((sealed / f"{name}.json").read_text())
         cases.append(Case(name, truth, json.loads(path.read_text()), adding.get(name)))
-    return cases
+    return left_over(cases)
 
 
 def answer_row(answer: Answer) -> dict:
@@ -53,6 +53,7 @@ def case_row(case: Case) -> dict:
         "amplitude": " ".join(f"{value:.4g}" for value in effects.values()),
         "strength": case.truth["strength"],
         "signal_sd": f"{case.signal_sd:.2f}",
+        "left_sd": f"{case.left_sd:.2f}",
         "confounded": "yes" if case.is_confounded else "",
         "verdict": case.verdict["kind"],
         "flagged": "yes" if case.verdict["flagged"] else "",

@@ -1,10 +1,11 @@
 """The scorer, on diagnoses whose scores are known."""
 
 import json
+from dataclasses import replace
 
 import pytest
 from intervals import clopper_pearson
-from judge import QUESTIONS, Case, answers
+from judge import QUESTIONS, Case, answers, left_over
 from score import main, markdown, read_cases, write_csv, answer_row
 
 
@@ -19,7 +20,7 @@ def diagnosis(
             "shots": list(shots),
             "flagged": kind != "no effect supported",
         },
-        "adequacy": {"p_chi2": 0.5, "p_battery": 0.5, "p_score": 0.5},
+        "adequacy": {"chi2": 90.0, "p_chi2": 0.5, "p_battery": 0.5, "p_score": 0.5},
         "candidates": [
             {
                 "name": name,
@@ -92,6 +93,19 @@ def test_an_effect_is_as_visible_as_all_errors_let_it():
     hidden_by_errors = friction(diagnosis(per_unit=25.0), signal=12.0)
     assert seen.signal_sd == pytest.approx(7) and seen.is_visible
     assert not hidden_by_errors.is_visible
+
+
+def test_what_is_left_after_a_refit_is_the_excess_over_sound_tables():
+    def with_chi2(case, chi2):
+        return replace(case, diagnosis={**case.diagnosis, "adequacy": {"chi2": chi2}})
+
+    nulls = [with_chi2(Case(f"n{i}", truth(), diagnosis()), 90 + 4 * i) for i in range(3)]
+    seen = [with_chi2(replace(friction(RIGHT), id=f"e{i}"), 140 + 6 * i) for i in range(2)]
+    found = {case.id: case for case in left_over(nulls + seen)}
+    assert found["e0"].left_sd == found["e1"].left_sd == pytest.approx(7)
+    assert found["n0"].left_sd == 0
+    answer = score_of(list(found.values()), "an effect that leaves 6")
+    assert (answer.hits, answer.trials) == (2, 2)
 
 
 def test_what_resembles_a_listed_effect_is_asked_apart():

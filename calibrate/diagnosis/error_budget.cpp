@@ -123,10 +123,8 @@ ErrorBudget error_budget(const CorrectedPredictor& predictor, const CorrectedMod
     ErrorBudget budget{none, none, none, none, none, Eigen::VectorXd(n)};
     for (Eigen::Index i = 0; i < n; ++i) {
         const Place& place = places[static_cast<std::size_t>(i)];
-        const auto points =
-            static_cast<double>(predictor.signature(place.datum->shot.shape).points);
-        budget.freedom_of_scatter(i) =
-            std::max(1.0, points - static_cast<double>(place.terms.size()));
+        budget.freedom_of_scatter(i) = std::max(
+            1.0, predictor.signature(place.datum->shot.shape).network_error.freedom);
     }
     Eigen::Index at = 0;
     for (const Datum* datum : model.data()) {

@@ -116,8 +116,12 @@ SmoothFit fit_smoothly(const Eigen::MatrixXd& scaled, const Eigen::VectorXd& amp
                 (trial.left_out.colwise().squaredNorm().cwiseProduct(weight)).mean() /
                 static_cast<double>(n);
             if (error >= worth_a_term * best.chosen_error) continue;
-            best = {terms, trial.coefficients, trial.spread,
-                    shrunk_covariance(trial.left_out), error};
+            best = {terms,
+                    trial.coefficients,
+                    trial.spread,
+                    shrunk_covariance(trial.left_out),
+                    static_cast<double>(n - values.cols()),
+                    error};
         }
     }
     return best;

@@ -43,6 +43,8 @@ struct SmoothFit {
     /// Covariance of a new point about the polynomial: of the errors of leaving one out,
     /// since the terms were chosen among many by the very points.
     Eigen::MatrixXd noise;
+    /// Points less terms: how well the noise is known.
+    double freedom = 0;
     double chosen_error = 0;  ///< mean squared leave-one-out error over that of the data
 
     Eigen::VectorXd operator()(const Eigen::VectorXd& terms_at) const {

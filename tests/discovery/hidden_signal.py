@@ -2,17 +2,9 @@
 
 import numpy as np
 from error_model import PlainModel, Shots, beyond_parameters, sensitivities, whiten, whiteners
+from make_synthetic_table import NOISE, VELOCITY_NOISE
 from specimens import DIAMETER_MM, LENGTH_MM, TEMPERATURE_K, ShotSet
 
-# Relative standard errors of a careful measurement, and of the gun's velocity.
-NOISE = {
-    "final_length_mm": 0.003,
-    "impact_diameter_mm": 0.01,
-    "head_length_mm": 0.01,
-    "rear_length_mm": 0.01,
-    "transition_diameter_mm": 0.01,
-}
-VELOCITY_NOISE = 0.005
 SPECIMEN = {
     "initial_diameter_mm": DIAMETER_MM,
     "length_to_diameter": LENGTH_MM / DIAMETER_MM,

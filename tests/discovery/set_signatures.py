@@ -14,7 +14,7 @@ from pathlib import Path
 
 import numpy as np
 from hidden_signal import SignalTable, visible_amplitude
-from hide import read_candidates, read_signatures
+from hide import WITHIN, read_candidates, read_signatures
 from make_design import write_design
 from make_signature_design import SHOT_INPUTS, base_rows, points, read_draws
 from measurements import read_measurements
@@ -27,7 +27,6 @@ SEED = 77
 # Amplitudes of the pairs: this many standard errors of the measurements, as far as the range
 # allows. What is hidden lies below; far beyond it sizes are no longer linear in the amplitude.
 SIGMAS = 12
-WITHIN = 0.95  # share of a range that is used
 SHARES = (0.5, 1.0)  # in turn, so that a curvature shows
 
 

@@ -7,11 +7,11 @@ difference of two runs with the same grains.
 from dataclasses import dataclass
 
 import numpy as np
+from make_synthetic_table import DIAMETER_MM, LENGTH_MM, TEMPERATURE_K
 
 SHAPES = ["uniform_cylinder", "reduced_head_4mm", "truncated_cone"]
 VELOCITIES_A_SHAPE = 8
 VELOCITY_RANGE_M_S = (45.0, 125.0)
-DIAMETER_MM, LENGTH_MM, TEMPERATURE_K = 8.0, 40.0, 300.0
 # Well inside the study's ranges: a truth at the edge would test the prior, not the diagnosis.
 TRUTHS = {
     "rho_immobile_initial": (2e12, 1.5e13),

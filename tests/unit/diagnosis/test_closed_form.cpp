@@ -1,9 +1,12 @@
 #include "calibrate/diagnosis/extra_error.hpp"
 #include "calibrate/diagnosis/leave_out.hpp"
+#include "calibrate/diagnosis/smooth_fit.hpp"
 #include "calibrate/diagnosis/tail_probability.hpp"
 #include "tests/unit/diagnosis/linear_table.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
@@ -201,6 +204,36 @@ TEST_CASE("the maximum of correlated statistics has its family-wise level", "[ma
     CHECK(one_sided.strength(0, -3) == -3);
     // Far out the bound takes over from counting.
     CHECK(independent.probability(7) == Approx(8 * normal_tail(7)).epsilon(1e-9));
+}
+
+TEST_CASE("a variance known from few runs makes a wild number less sure", "[bad_data]") {
+    const toys::LinearTable table;
+    const DiagnosisProblem exact = table.problem(table.draw(5, table.no_shift()));
+    DiagnosisProblem estimated = exact;
+    constexpr double freedom = 4;
+    estimated.freedom = Eigen::VectorXd::Constant(exact.measured.size(), freedom);
+    const Whitening whiten(exact.covariance);
+    const Refit fit =
+        refit(exact, whiten, {}, Eigen::VectorXd::Constant(3, 0.5), Eigen::VectorXd());
+    const std::vector<Suspect> sure = suspect_data(exact, whiten, fit),
+                               less = suspect_data(estimated, whiten, fit);
+    REQUIRE(sure.size() == less.size());
+    const auto all = static_cast<double>(sure.size());
+    for (std::size_t i = 0; i < sure.size(); ++i)
+        if (!sure[i].size.empty())
+            CHECK(less[i].p ==
+                  Approx(
+                      std::min(1.0, all * fisher_tail(sure[i].z * sure[i].z, 1, freedom)))
+                      .epsilon(1e-9));
+}
+
+TEST_CASE("a fit knows its noise as well as points exceed terms", "[smooth_fit]") {
+    Eigen::MatrixXd scaled(6, 1), targets(6, 1);
+    scaled << -1, -0.6, -0.2, 0.2, 0.6, 1;
+    targets << -2.01, -1.19, -0.41, 0.4, 1.21, 1.99;  // a slope of 2 and little else
+    const SmoothFit fit = fit_smoothly(scaled, Eigen::VectorXd(), targets);
+    CHECK(fit.terms.velocity_order == 1);
+    CHECK(fit.freedom == 4);
 }
 
 TEST_CASE("a shot's deviation is studentised against the others", "[bad_data]") {

@@ -165,7 +165,10 @@ bool DislocationStrength<Real, variant>::is_elastic(const Block& block,
 /// An elastic step: what the dislocations do meanwhile is left to the end of the rest.
 template <class Real, simd::Variant variant>
 void DislocationStrength<Real, variant>::rest(Block& block, const Step& step) const {
-    for (int k = 0; k < 5; ++k) block.elastic[k] += step.duration * step.rate[k];
+    for (int k = 0; k < 5; ++k) {
+        block.elastic[k] += step.duration * step.rate[k];
+        block.elastic_rate[k] = step.rate[k];
+    }
     block.rest_dilatation += step.duration * step.dilatation;
     block.rest_time += static_cast<double>(step.duration);
     block.next_substep = 2 * static_cast<double>(step.duration);
@@ -223,6 +226,8 @@ void DislocationStrength<Real, variant>::solve_stress(Block& block, const Step& 
             equations.old[k] = block.elastic[k].one(part);
             equations.trial[k] =
                 equations.old[k] + step.duration * step.rate[k].one(part);
+            equations.e[k] =
+                equations.old[k] + step.duration * block.elastic_rate[k].one(part);
         }
         for (std::size_t d = 0; d < slip_system_count; ++d) {
             equations.mobile[d] = block.mobile[d].one(part);
@@ -290,6 +295,7 @@ void DislocationStrength<Real, variant>::accept(const Outcome& outcome, const St
         const V increment =
             block.elastic[k] + step.duration * step.rate[k] - outcome.elastic[k];
         work += outcome.elastic[k] * increment;
+        block.elastic_rate[k] = (outcome.elastic[k] - block.elastic[k]) / step.duration;
         block.plastic[k] += increment;
         block.elastic[k] = outcome.elastic[k];
     }

@@ -37,6 +37,7 @@ class DislocationStrength final : public Strength<Real> {
     struct Block {
         V orientation[9];                ///< crystal to lab, row-major
         V elastic[5];                    ///< e = dev(u) - w
+        V elastic_rate[5];               ///< de/dt of the last substep [1/s]
         V plastic[5];                    ///< w
         V mobile[slip_system_count];     ///< rhoD [1/m2]
         V immobile[slip_system_count];   ///< rhoI [1/m2]

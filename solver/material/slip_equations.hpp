@@ -10,8 +10,9 @@
 
 namespace taylorcal::material {
 
+// Newton's last step may be this long: what it leaves is of the order of its square.
 template <class Real>
-constexpr Real strain_tolerance = sizeof(Real) == 4 ? Real(5e-7) : Real(1e-12);
+constexpr Real strain_tolerance = sizeof(Real) == 4 ? Real(5e-6) : Real(1e-12);
 
 /// The backward-Euler equations of a few grains' elastic strain e,
 /// e + dt sum_d M^d b rhoD V(e) sign = e_old + dt dev(D), Eqs. 4-14, together with the
@@ -33,13 +34,12 @@ class SlipEquations {
     V mobile[slip_system_count];  ///< rhoD [1/m2]
     V root[slip_system_count];    ///< drag roots z: a guess, and what they become
 
-    V e[5];                       ///< the answer
+    V e[5];                       ///< a guess, and the answer
     V speed[slip_system_count];   ///< |V| [m/s]
     V excess[slip_system_count];  ///< |resolved stress| above the threshold [Pa]
 
-    /// Finds e; at most `largest_iteration_count` iterations.
+    /// Finds e from a guess; at most `largest_iteration_count` iterations.
     void solve() {
-        std::copy(old, old + 5, e);
         LineSearch<V> search;
         for (int iteration = 0; iteration < largest_iteration_count; ++iteration) {
             const bool careful = iteration >= first_careful_iteration;

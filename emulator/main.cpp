@@ -19,6 +19,8 @@ int main(int argc, char** argv) {
     app.footer(
         "Examples:\n"
         "  emulator train database.h5 --config train.json --out emulator.json\n"
+        "  emulator train coarse.h5 --better fine.h5 --config train.json --out "
+        "emulator.json\n"
         "  emulator train wider.h5 --config wider.json --from emulator.json --out "
         "wider_emulator.json\n"
         "  emulator validate emulator.json database.h5\n"
@@ -34,6 +36,9 @@ int main(int argc, char** argv) {
     train->add_option("--config", training.config, "What to learn, and how (JSON)")
         ->required();
     train->add_option("--out", training.out, "Emulator file to write (JSON)")->required();
+    train->add_option("--better", training.better,
+                      "Runs of a better solver (HDF5): the network answers as that one, "
+                      "and learns from the others as far as they agree");
     train->add_option("--from", training.from,
                       "Emulator of fewer inputs to go on from (JSON); layers and neurons "
                       "stay its own");

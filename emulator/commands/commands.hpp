@@ -10,7 +10,8 @@ struct TrainArguments {
     std::filesystem::path database;
     std::filesystem::path config;
     std::filesystem::path out;
-    std::filesystem::path from;  ///< Emulator to go on from; empty for none.
+    std::filesystem::path better;  ///< Runs of a better solver; empty for none.
+    std::filesystem::path from;    ///< Emulator to go on from; empty for none.
     int threads = 1;
 };
 

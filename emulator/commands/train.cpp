@@ -13,8 +13,12 @@ int train(const TrainArguments& arguments) {
     std::vector<std::string> inputs, outputs;
     for (const InputChoice& input : config.inputs) inputs.push_back(input.name);
     for (const OutputChoice& output : config.outputs) outputs.push_back(output.name);
-    const Dataset data =
-        read_dataset(arguments.database, inputs, config.category, outputs);
+    Dataset data = read_dataset(arguments.database, inputs, config.category, outputs);
+    if (!arguments.better.empty())
+        data = with_better_runs(
+            std::move(data),
+            read_dataset(arguments.better, inputs, config.category, outputs),
+            arguments.better.string());
     const Model model =
         arguments.from.empty()
             ? train_emulator(config, data, arguments.threads)

@@ -52,7 +52,10 @@ Emulator Emulator::from_file(const std::filesystem::path& path) {
 }
 
 Emulator::Emulator(Model model) : model_(std::move(model)) {
-    for (const Member& member : model_.members) {
+    for (Member member : model_.members) {
+        Eigen::MatrixXf& weights = member.layers.front().weights;
+        if (model_.corrects_cheaper_runs)
+            weights = Eigen::MatrixXf(weights.leftCols(weights.cols() - 1));
         forward_.emplace_back(member, used_inputs(model_), model_.outputs);
     }
     for (const OutputInfo& output : model_.outputs) {

@@ -66,6 +66,10 @@ struct Model {
     std::vector<OutputInfo> outputs;
     std::vector<Member> members;
     std::size_t best = 0;
+    /// The first layer has a last column more: for runs of a cheaper solver, which the
+    /// network learnt from as well. It is 1 for those, and 0 for what the network
+    /// answers.
+    bool corrects_cheaper_runs = false;
     /// By category value; one with the name "all" when there is no category.
     std::vector<std::pair<std::string, Covariance>> covariances;
     nlohmann::json validation;  ///< The figures of merit, without the covariances.

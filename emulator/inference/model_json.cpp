@@ -21,7 +21,8 @@ constexpr const char* recipe =
     "one "
     "number for each of category.values, 1 where it equals c, else 0; (3) with the "
     "layers of "
-    "members[best], in order: z = weights z + bias, then for all layers but the last z = "
+    "members[best] (with corrects_cheaper_runs the first without the last column of its "
+    "weights), in order: z = weights z + bias, then for all layers but the last z = "
     "z / (1 "
     "+ exp(-z)); (4) output k = (z[k] * scale + shift) of outputs[k], times the product "
     "of the "
@@ -130,6 +131,7 @@ Member member_from(const JsonReader& reader) {
 void check_shapes(const Model& model, const JsonReader& reader) {
     Eigen::Index inputs = static_cast<Eigen::Index>(model.category.values.size());
     for (const InputInfo& input : model.inputs) inputs += input.used ? 1 : 0;
+    if (model.corrects_cheaper_runs) ++inputs;
     for (const Member& member : model.members) {
         Eigen::Index width = inputs;
         for (const Layer& layer : member.layers) {
@@ -156,6 +158,7 @@ json to_json(const Model& model) {
                  {"activation", "silu"},
                  {"recipe", recipe},
                  {"best", model.best},
+                 {"corrects_cheaper_runs", model.corrects_cheaper_runs},
                  {"category", nullptr},
                  {"provenance", model.provenance},
                  {"validation", model.validation}};
@@ -207,6 +210,7 @@ Model model_from_json(const json& file, const std::string& where) {
         model.members.push_back(member_from(member));
     }
     model.best = static_cast<std::size_t>(reader.integer("best"));
+    model.corrects_cheaper_runs = reader.boolean("corrects_cheaper_runs", false);
     const JsonReader validation = reader.object("validation");
     model.validation = validation.json();
     model.validation.erase("covariance");

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <fmt/core.h>
 #include <fmt/ranges.h>
@@ -75,6 +76,30 @@ Dataset read_dataset(const std::filesystem::path& path,
     }
     data.inputs = inputs(kept, Eigen::all);
     data.outputs = outputs(kept, Eigen::all);
+    return data;
+}
+
+Dataset with_better_runs(Dataset data, const Dataset& better, const std::string& where) {
+    const std::set<std::int64_t> known(data.row_ids.begin(), data.row_ids.end());
+    for (const std::int64_t id : better.row_ids)
+        require(!known.contains(id),
+                fmt::format("{}: run {} is among those of the cheaper solver as well. "
+                            "Number the runs of both without repeating any.",
+                            where, id));
+    const auto extend = [](auto& to, const auto& from) {
+        to.insert(to.end(), from.begin(), from.end());
+    };
+    const auto extend_rows = [](RowMatrix& to, const RowMatrix& from) {
+        to.conservativeResize(to.rows() + from.rows(), Eigen::NoChange);
+        to.bottomRows(from.rows()) = from;
+    };
+    data.cheaper.assign(data.row_ids.size(), 1);
+    data.cheaper.resize(data.row_ids.size() + better.row_ids.size(), 0);
+    extend(data.row_ids, better.row_ids);
+    extend(data.categories, better.categories);
+    extend_rows(data.inputs, better.inputs);
+    extend_rows(data.outputs, better.outputs);
+    data.dropped_rows += better.dropped_rows;
     return data;
 }
 

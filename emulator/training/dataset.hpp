@@ -15,7 +15,9 @@ struct Dataset {
     std::vector<std::int64_t> row_ids;
     RowMatrix inputs;                     ///< [rows x inputs]
     std::vector<std::string> categories;  ///< One a row; all "all" when there is none.
-    RowMatrix outputs;      ///< [rows x outputs], NaN where without meaning.
+    RowMatrix outputs;  ///< [rows x outputs], NaN where without meaning.
+    /// By row, 1 for runs of a cheaper solver than the others; empty when all are of one.
+    std::vector<float> cheaper;
     long dropped_rows = 0;  ///< Not finished, or without any output.
 
     Eigen::Index rows() const { return inputs.rows(); }
@@ -30,5 +32,9 @@ Dataset read_dataset(const std::filesystem::path& path,
                      const std::vector<std::string>& input_names,
                      const std::string& category,
                      const std::vector<std::string>& output_names);
+
+/// The rows of `data`, which a cheaper solver made, and those of `better`. InputError
+/// naming `where` when a run_id is in both.
+Dataset with_better_runs(Dataset data, const Dataset& better, const std::string& where);
 
 }  // namespace taylorcal::emulator

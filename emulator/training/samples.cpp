@@ -100,6 +100,7 @@ Model describe(const TrainConfig& config, const Dataset& data, const Split& spli
     for (const OutputChoice& choice : config.outputs) {
         model.outputs.push_back({choice.name, 0, 1, choice.divide_by});
     }
+    model.corrects_cheaper_runs = !data.cheaper.empty();
     const RowMatrix outputs = divided_outputs(model, data);
     for (std::size_t k = 0; k < model.outputs.size(); ++k) {
         OutputInfo& output = model.outputs[k];
@@ -122,8 +123,9 @@ Samples standardise(const Model& model, const Dataset& data,
     const auto n = static_cast<Eigen::Index>(rows.size());
     const auto continuous = std::ranges::count_if(model.inputs, &InputInfo::used);
     const auto values = static_cast<Eigen::Index>(model.category.values.size());
+    const Eigen::Index solvers = model.corrects_cheaper_runs ? 1 : 0;
     Samples samples;
-    samples.inputs = Eigen::MatrixXf::Zero(continuous + values, n);
+    samples.inputs = Eigen::MatrixXf::Zero(continuous + values + solvers, n);
     samples.targets =
         Eigen::MatrixXf::Zero(static_cast<Eigen::Index>(model.outputs.size()), n);
     samples.mask = samples.targets;
@@ -142,6 +144,9 @@ Samples standardise(const Model& model, const Dataset& data,
                               data.categories[static_cast<std::size_t>(row)];
             samples.inputs(continuous + c, j) = here ? 1.0F : 0.0F;
         }
+        if (model.corrects_cheaper_runs)
+            samples.inputs(continuous + values, j) =
+                data.cheaper[static_cast<std::size_t>(row)];
         for (Eigen::Index k = 0; k < outputs.cols(); ++k) {
             const OutputInfo& output = model.outputs[static_cast<std::size_t>(k)];
             const double value = (outputs(row, k) - output.shift) / output.scale;

@@ -16,7 +16,8 @@ struct Split {
 };
 
 /// Holds out `fraction` of each category value's rows (at least one of two). Which ones
-/// follows from the seed and the row's id, not from its place in the file.
+/// follows from the seed and the row's id, not from its place in the file. Runs of a
+/// cheaper solver are all learnt from: the others judge.
 Split split_rows(const Dataset& data, double fraction, std::uint64_t seed);
 
 }  // namespace taylorcal::emulator

@@ -89,6 +89,7 @@ void judge(Model& model, const Dataset& data, const Split& split) {
         {"rows", split.validation.size()},
         {"training_rows", split.training.size()},
         {"dropped_rows", data.dropped_rows},
+        {"cheaper_rows", std::ranges::count(data.cheaper, 1.0F)},
         {"rms_relative", whole.rms_relative},
         {"largest_relative", whole.largest_relative},
         {"pairs", sample_pairs(emulator, data, split.validation, predicted)}};

@@ -39,18 +39,20 @@ std::vector<Eigen::Index> old_columns(const Model& wider, const Model& old) {
     return columns;
 }
 
+/// `kept` last columns are those of the categories, and of the cheaper solver if the old
+/// network knew one; a column for it is added if only the new one does.
 Member widened(const Member& old, const std::vector<Eigen::Index>& columns,
-               Eigen::Index categories) {
+               Eigen::Index kept, Eigen::Index added) {
     Member member = old;
     const Eigen::MatrixXf& before = old.layers.front().weights;
     const auto continuous = static_cast<Eigen::Index>(columns.size());
     Eigen::MatrixXf& weights = member.layers.front().weights;
-    weights = Eigen::MatrixXf::Zero(before.rows(), continuous + categories);
+    weights = Eigen::MatrixXf::Zero(before.rows(), continuous + kept + added);
     for (Eigen::Index to = 0; to < continuous; ++to) {
         const Eigen::Index from = columns[static_cast<std::size_t>(to)];
         if (from != new_input) weights.col(to) = before.col(from);
     }
-    weights.rightCols(categories) = before.rightCols(categories);
+    weights.middleCols(continuous, kept) = before.rightCols(kept);
     return member;
 }
 
@@ -86,11 +88,18 @@ void widen(Model& wider, const Model& old, const std::string& where) {
                         "--from.",
                         where, old.category.name, fmt::join(old.category.values, ", "),
                         fmt::join(wider.category.values, ", ")));
-    const auto categories = static_cast<Eigen::Index>(old.category.values.size());
+    require(
+        wider.corrects_cheaper_runs || !old.corrects_cheaper_runs,
+        fmt::format("{}: it learnt from runs of two solvers. Give those of the better "
+                    "one with --better, or train without --from.",
+                    where));
+    const auto kept = static_cast<Eigen::Index>(old.category.values.size() +
+                                                (old.corrects_cheaper_runs ? 1 : 0));
+    const Eigen::Index added = wider.corrects_cheaper_runs > old.corrects_cheaper_runs;
     const std::vector<Eigen::Index> columns = old_columns(wider, old);
     wider.members.clear();
     for (const Member& member : old.members)
-        wider.members.push_back(widened(member, columns, categories));
+        wider.members.push_back(widened(member, columns, kept, added));
 }
 
 }  // namespace taylorcal::emulator

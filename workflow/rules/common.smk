@@ -14,8 +14,8 @@ from input_errors import InputError
 from measurements import check_against_study, read_measurements
 from outlines.table import check_outlines
 from revisions import HOME, homes_of, previous_home, split_home
-from study import EXPERIMENTS, STAGE_SETTINGS, at_revision, chunk_count, design_settings
-from study import load_study, new_runs, uses_outlines
+from study import EXPERIMENTS, STAGE_SETTINGS, at_revision, better_design_settings
+from study import chunk_count, design_settings, load_study, new_runs, uses_outlines
 
 min_version("7.21")
 
@@ -68,6 +68,10 @@ def stage_settings(wildcards):
 
 def design_settings_of(wildcards):
     return design_settings(study_of(wildcards.study))
+
+
+def better_design_settings_of(wildcards):
+    return better_design_settings(study_of(wildcards.study))
 
 
 def measurements_of(wildcards):
@@ -144,6 +148,37 @@ def share_of_chunk(runs, chunks, wildcards):
 def chunks_of(wildcards):
     chunks = range(chunk_count(study_of(wildcards.study)))
     return expand("results/{study}/chunks/{chunk}.h5", chunk=chunks, study=wildcards.study)
+
+
+def better_chunk_count(wildcards):
+    database = study_of(wildcards.study)["database"]
+    return min(database["chunks"], database["better"]["runs"])
+
+
+def better_rows_of_chunk(wildcards):
+    runs = study_of(wildcards.study)["database"]["better"]["runs"]
+    return share_of_chunk(runs, better_chunk_count(wildcards), wildcards)
+
+
+def better_chunks_of(wildcards):
+    """Those of the base: no revision has runs of its own."""
+    home = previous_home(wildcards.study)
+    if home:
+        return f"results/{home}/better.h5"
+    name = "results/{study}/better_chunks/{chunk}.h5"
+    return expand(name, chunk=range(better_chunk_count(wildcards)), study=wildcards.study)
+
+
+def better_of(wildcards):
+    """The runs that correct the others, if the study has some."""
+    has_some = study_of(wildcards.study)["database"]["better"]
+    return with_scores("better")(wildcards) if has_some else []
+
+
+def best_solver_of(wildcards):
+    """The solver that the network answers as."""
+    better = "_better" if study_of(wildcards.study)["database"]["better"] else ""
+    return f"results/{wildcards.study}/config/solver{better}.json"
 
 
 def benchmarks_of(wildcards):

@@ -19,7 +19,7 @@ rule confirmation_runs:
     input:
         program=ancient("build/bin/solver"),
         design="results/{study}/confirmation_design.h5",
-        settings="results/{study}/config/solver.json",
+        settings=best_solver_of,
     output:
         "results/{study}/confirmation_runs.h5",
     log:

@@ -2,6 +2,7 @@ rule train:
     input:
         program=ancient("build/bin/emulator"),
         database=with_scores("database"),
+        better=better_of,
         previous=previous("emulator.json"),
         settings="results/{study}/config/train.json",
     output:
@@ -12,8 +13,10 @@ rule train:
         "results/{study}/benchmarks/train.tsv"
     params:
         code=code_of("emulator"),
+        better=lambda wildcards, input: f"--better {input.better}" if input.better else "",
         start=lambda wildcards, input: f"--from {input.previous}" if input.previous else "",
     threads: workflow.cores
     shell:
-        "{input.program} train {input.database} --config {input.settings} {params.start}"
+        "{input.program} train {input.database} --config {input.settings} {params.better}"
+        " {params.start}"
         " --out {output} --threads {threads} > {log} 2>&1"

@@ -16,6 +16,7 @@ DESIGN_RANGES += ["initial_temperature_K"]
 LENGTH = ["initial_diameter_mm", "length_to_diameter"]
 DIAMETER = ["initial_diameter_mm"]
 FIDELITIES = ["coarse", "standard", "fine"]
+FIRST_BETTER_RUN = 100_000_000  # beyond those of any revision: no number is used twice
 OUTLINE_SCORES = [f"outline_pc_{k}" for k in range(1, 5)]  # of principal components, in mm
 
 
@@ -73,6 +74,10 @@ def _contradictions(study: dict) -> list[tuple[tuple, str]]:
         if parameter["prior"] == "log_uniform" and parameter["lower"] <= 0:
             found.append((key, "has prior log_uniform from 0 (expected lower > 0)."))
     found += _uncovered_priors(study)
+    better = study["database"]["better"]
+    if better and all(better[key] == study["solver"][key] for key in ("geometry", "fidelity")):
+        problem = "is the solver of the other runs. Choose a finer one, or leave `better` out."
+        found.append((("database", "better"), problem))
     if study["database"]["chunks"] > study["database"]["runs"]:
         found.append((("database", "chunks"), "is more than `runs` (expected at most as many)."))
     for size in study["calibration"]["fit_sizes"]:
@@ -132,6 +137,12 @@ def design_settings(study: dict) -> dict:
     return settings
 
 
+def better_design_settings(study: dict) -> dict:
+    """The same for the runs of the better solver, which has no runs of an effect."""
+    settings = design_settings(at_revision(study, []))
+    return {**settings, "runs": study["database"]["better"]["runs"], "first_run": FIRST_BETTER_RUN}
+
+
 def covered_range(name: str, study: dict) -> dict:
     """Range of a parameter that the runs cover: that of its prior, unless `database` says more."""
     prior = study["parameters"][name]
@@ -153,6 +164,12 @@ def solver_settings(study: dict) -> dict:
     return study["solver"]
 
 
+def better_settings(study: dict) -> dict:
+    """solver_better.json: what the network answers as; `solver` where there is no better one."""
+    better = study["database"]["better"] or {}
+    return {**study["solver"], **{key: value for key, value in better.items() if key != "runs"}}
+
+
 def finer_settings(study: dict) -> dict:
     """solver_finer.json: the same at the next fidelity, to see the solver's own error."""
     finer = FIDELITIES[FIDELITIES.index(study["solver"]["fidelity"]) + 1]
@@ -160,7 +177,8 @@ def finer_settings(study: dict) -> dict:
 
 
 def has_finer(study: dict) -> bool:
-    return study["solver"]["fidelity"] != FIDELITIES[-1]
+    """A network that runs of a better solver have corrected has no such error to look for."""
+    return not study["database"]["better"] and study["solver"]["fidelity"] != FIDELITIES[-1]
 
 
 def train_settings(study: dict) -> dict:
@@ -216,6 +234,7 @@ def report_settings(study: dict) -> dict:
 
 STAGE_SETTINGS = {
     "solver": solver_settings,
+    "solver_better": better_settings,
     "solver_finer": finer_settings,
     "train": train_settings,
     "calibrate": calibrate_settings,

@@ -1,0 +1,123 @@
+"""What cheaper and better runs buy: the network's error on better runs that no training saw,
+against the processor time of the runs that it learnt from.
+"""
+
+import io
+import json
+import subprocess
+from pathlib import Path
+
+import h5py
+import matplotlib
+import numpy as np
+import pandas as pd
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+
+HELD_OUT = 350  # better runs, the last ones of the design
+EPOCHS = 1000
+MEMBERS = 2
+CHEAPER = [0, 600, 2400]  # runs learnt from
+BETTER = [0, 100, 200, 400]
+LABELS = {0: "better runs alone", 600: "+ 600 coarse runs", 2400: "+ 2400 coarse runs"}
+
+
+def write_rows(source, rows, path):
+    """Some rows of a database, in a database of their own."""
+    with h5py.File(source) as whole, h5py.File(path, "w") as part:
+        for key, value in whole.attrs.items():
+            part.attrs[key] = value
+        for name, data in whole.items():
+            made = part.create_dataset(name, data=data[:][rows], dtype=data.dtype)
+            for key, value in data.attrs.items():
+                made.attrs[key] = value
+
+
+def cpu_seconds(database, rows):
+    with h5py.File(database) as file:
+        ids = file["run_id"][:][rows]
+    costs = pd.read_csv(f"{database}.cost.csv").set_index("run_id")["cpu_s"]
+    return float(costs.loc[ids].sum())
+
+
+def error_of(emulator, held_out):
+    """RMS and largest relative error [%] over all outputs and shapes, and by output."""
+    told = subprocess.run(
+        ["build/bin/emulator", "validate", emulator, held_out],
+        check=True,
+        capture_output=True,
+        text=True,
+    ).stdout
+    table = pd.read_csv(io.StringIO(told))
+    whole = table[table["output"] == "all"].iloc[0]
+    parts = table[table["output"] != "all"].groupby("output")["rms_percent"].mean()
+    return {
+        "rms_percent": whole["rms_percent"],
+        "largest_percent": whole["largest_percent"],
+        **{f"{name}_rms_percent": value for name, value in parts.items()},
+    }
+
+
+def compare(database, better, train, folder):
+    """One row for each number of cheaper and better runs that a network learnt from."""
+    folder.mkdir(parents=True, exist_ok=True)
+    with h5py.File(database) as file:
+        cheap_count = len(file["run_id"])
+    with h5py.File(better) as file:
+        better_count = len(file["run_id"])
+    held_out = folder / "held_out.h5"
+    write_rows(better, np.arange(better_count - HELD_OUT, better_count), held_out)
+    settings = {**json.loads(Path(train).read_text()), "epochs": EPOCHS, "members": MEMBERS}
+    settings["validation_fraction"] = 0.15
+    (folder / "train.json").write_text(json.dumps(settings))
+    rows = []
+    for cheap in CHEAPER:
+        for good in (n for n in BETTER if n + cheap and n <= better_count - HELD_OUT):
+            files = []
+            seconds = 0.0
+            for source, count, most in [(database, cheap, cheap_count), (better, good, good)]:
+                if not count:
+                    continue
+                chosen = np.arange(min(count, most))
+                files.append(folder / f"{Path(source).stem}_{count}.h5")
+                write_rows(source, chosen, files[-1])
+                seconds += cpu_seconds(source, chosen)
+            emulator = folder / f"c{cheap}_b{good}.json"
+            command = ["build/bin/emulator", "train", files[0], "--out", emulator]
+            command += ["--better", files[1]] if len(files) > 1 else []
+            subprocess.run([*command, "--config", folder / "train.json"], check=True)
+            counts = {"cheaper_runs": cheap, "better_runs": good, "core_hours": seconds / 3600}
+            rows.append({**counts, **error_of(emulator, held_out)})
+    return pd.DataFrame(rows)
+
+
+def draw(table, path):
+    figure, axes = plt.subplots(1, 2, figsize=(9, 3.8), sharex=True)
+    titles = {"rms_percent": "RMS", "largest_percent": "largest"}
+    for axis, (column, title) in zip(axes, titles.items()):
+        for cheap, part in table.groupby("cheaper_runs"):
+            line = part.sort_values("better_runs")
+            axis.plot(line["core_hours"], line[column], "o-", label=LABELS[cheap])
+            for _, row in line.iterrows():
+                spot = (row["core_hours"], row[column])
+                text = f"{int(row['better_runs'])}"
+                axis.annotate(text, spot, (4, 4), textcoords="offset points", fontsize=8)
+        axis.set_yscale("log")
+        axis.set_xlabel("runs learnt from [core-hours]")
+        axis.set_ylabel(f"{title} error on held-out standard runs [%]")
+        axis.grid(alpha=0.3, which="both")
+    axes[0].legend(title="numbers: standard runs", fontsize=8, title_fontsize=8)
+    figure.tight_layout()
+    figure.savefig(path, dpi=110)
+
+
+if __name__ == "__main__":
+    found = compare(
+        snakemake.input.database,  # noqa: F821
+        snakemake.input.better,  # noqa: F821
+        snakemake.input.train,  # noqa: F821
+        Path(snakemake.params.folder),  # noqa: F821
+    )
+    found.round(4).to_csv(snakemake.output.table, index=False)  # noqa: F821
+    draw(found, snakemake.output.figure)  # noqa: F821

@@ -163,6 +163,17 @@ class Registers {
                                        (std::bit_cast<Truth>(shifted) << exponent_bit));
         });
     }
+    /// a 2^n, with n in the lowest bits of `shifted` = n + 1.5 2^23; nothing may
+    /// overflow.
+    friend Registers lane_times_power_of_two(
+        const Registers& a,
+        const Registers& shifted) requires std::is_same_v<Real, float> {
+        return part_by_part(a, shifted, [](Part x, Part n) -> Part {
+            constexpr int exponent_bit = 23;
+            return std::bit_cast<Part>(std::bit_cast<Truth>(x) +
+                                       (std::bit_cast<Truth>(n) << exponent_bit));
+        });
+    }
     friend Mask operator>(const Registers& a, const Registers& b) {
         Mask mask;
         for (std::size_t i = 0; i < parts; ++i) mask.part[i] = a.part_[i] > b.part_[i];

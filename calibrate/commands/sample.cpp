@@ -2,12 +2,18 @@
 
 #include "calibrate/posterior/posterior_file.hpp"
 #include "calibrate/posterior/summary.hpp"
+#include "calibrate/prior_pass/sample_prior.hpp"
 #include "calibrate/sampling/adapt.hpp"
+#include "common/atomic_file.hpp"
 #include "common/progress.hpp"
+#include "common/provenance.hpp"
+#include "common/simd.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
+#include <functional>
 #include <optional>
 
 #include <fmt/core.h>
@@ -55,29 +61,84 @@ void warn_of_doubts(const Posterior& posterior, const SpreadLevels& levels) {
             at_end, found.size(), levels.name, levels.values.back());
 }
 
+/// Tells every input, so that what an interrupted run saved is taken up by the same only.
+std::string digest_of(const InputPaths& paths) {
+    std::string all = version() + simd::name(simd::variant());
+    for (const auto& path : {paths.settings, paths.measurements, paths.emulator})
+        all += read_text(path);
+    return digest(all);
+}
+
+/// Told of draws as they are done; the bar is made with the first ones, since the search
+/// for a proposal before has no known length.
+std::function<void(std::uint64_t)> bar(std::optional<Progress>& progress,
+                                       std::uint64_t total) {
+    return [&progress, total](std::uint64_t done) {
+        if (!progress) progress.emplace("sampling", total);
+        progress->advance(done);
+    };
+}
+
+PosteriorResult sample_plain(const StudyInputs& inputs, const PlainRun& run) {
+    PlainResult found =
+        sample_prior(inputs.settings, inputs.set, inputs.space, inputs.predictor, run);
+    PosteriorResult result;
+    result.plain = {
+        std::move(found.convergence), found.dropping,
+        sample_subsets(inputs.settings, inputs.set, inputs.space, inputs.predictor,
+                       run.threads, found.posterior.reference)};
+    result.posterior = std::move(found.posterior);
+    result.maps = std::move(found.maps);
+    return result;
+}
+
+PosteriorResult sample_adapted(const StudyInputs& inputs, int threads,
+                               const std::function<void(std::uint64_t)>& advance) {
+    PosteriorResult result;
+    result.posterior = sample_posterior(inputs.settings, inputs.set, inputs.space,
+                                        inputs.predictor, threads, advance);
+    result.maps =
+        make_maps(result.posterior.pool, inputs.space, spread_levels(inputs.settings));
+    return result;
+}
+
+void print_subsets(const PlainFindings& findings, const ParameterSpace& space) {
+    fmt::print(
+        "dropped draws hold less than {:.1e} of the posterior; {:.2f} rows a draw\n",
+        findings.dropping.mass_bound, findings.dropping.rows_per_draw);
+    for (const SubsetFindings& subset : findings.subsets) {
+        fmt::print("{}:", subset.name);
+        for (std::size_t d = 0; d < space.size(); ++d)
+            fmt::print(" {}{} {:.4g} +- {:.2g}",
+                       space.parameter(d).log_uniform ? "lg " : "", space.names()[d],
+                       subset.summary.mean(static_cast<Eigen::Index>(d)),
+                       subset.summary.sd(static_cast<Eigen::Index>(d)));
+        fmt::print("\n");
+    }
+}
+
 }  // namespace
 
 void sample(const InputPaths& paths, const std::filesystem::path& out, int threads) {
     const StudyInputs inputs(paths);
+    const bool plain = inputs.settings.draws_from == DrawsFrom::prior;
+    const std::filesystem::path checkpoint = out.string() + ".checkpoint";
     PosteriorResult result;
     {
-        // Made with the first draws: the search for the proposal has no known length.
         std::optional<Progress> progress;
-        result.posterior =
-            sample_posterior(inputs.settings, inputs.set, inputs.space, inputs.predictor,
-                             threads, [&](std::uint64_t done) {
-                                 if (!progress)
-                                     progress.emplace("sampling", inputs.settings.draws);
-                                 progress->advance(done);
-                             });
+        const auto advance = bar(progress, inputs.settings.draws);
+        result = plain ? sample_plain(inputs,
+                                      {threads, {checkpoint, digest_of(paths)}, advance})
+                       : sample_adapted(inputs, threads, advance);
     }
     const LotLikelihood likelihood(inputs.settings, inputs.set, inputs.space,
                                    inputs.predictor, result.posterior.reference);
-    result.maps = make_maps(result.posterior.pool, inputs.space, likelihood.levels());
     result.maxima =
         find_maxima(likelihood, result.posterior.kept, result.posterior.log_evidence);
     write_posterior(out, result, inputs.space, likelihood.levels(), inputs.settings);
+    std::filesystem::remove(checkpoint);
     print_result(result, inputs.space, likelihood.levels(), inputs.settings);
+    if (result.plain) print_subsets(*result.plain, inputs.space);
     warn_of_doubts(result.posterior, likelihood.levels());
 }
 

@@ -26,7 +26,7 @@ LotLikelihood::LotLikelihood(const Settings& settings, const DataSet& set,
 RowMatrix LotLikelihood::operator()(std::size_t lot, const RowMatrix& parameters) const {
     RowMatrix total = RowMatrix::Zero(parameters.rows(),
                                       static_cast<Eigen::Index>(levels_.values.size()));
-    for (const Part& part : lots_[lot]) {
+    for (const Row& part : lots_[lot]) {
         const RowMatrix predicted = predictor_.predict(part.shot, parameters);
         for (Eigen::Index i = 0; i < parameters.rows(); ++i)
             part.likelihood.add(predicted.row(i), &total(i, 0));
@@ -38,7 +38,7 @@ RowMatrix LotLikelihood::whitened(const RowMatrix& units, std::size_t level) con
     std::vector<Eigen::VectorXd> columns;
     for (std::size_t lot = 0; lot < lots_.size(); ++lot) {
         const RowMatrix parameters = space_.lot_parameters(units, lot);
-        for (const Part& part : lots_[lot]) {
+        for (const Row& part : lots_[lot]) {
             const RowMatrix predicted = predictor_.predict(part.shot, parameters);
             const std::size_t first = columns.size();
             columns.resize(first + part.likelihood.size(), Eigen::VectorXd(units.rows()));

@@ -15,6 +15,11 @@ namespace taylorcal::calibrate {
 /// parameters and its factor and determinant are computed once.
 class LotLikelihood {
   public:
+    /// A fitted shot with its errors.
+    struct Row {
+        Shot shot;
+        ShotLikelihood likelihood;
+    };
     /// `reference`: a point of the unit cube.
     LotLikelihood(const Settings& settings, const DataSet& set,
                   const ParameterSpace& space, const Predictor& predictor,
@@ -35,16 +40,14 @@ class LotLikelihood {
     /// Predictions of shots that one parameter point (all lots) costs.
     std::size_t shots() const { return shots_; }
 
+    const std::vector<Row>& rows(std::size_t lot) const { return lots_[lot]; }
+
   private:
-    struct Part {
-        Shot shot;
-        ShotLikelihood likelihood;
-    };
     const ParameterSpace& space_;
     const Predictor& predictor_;
     SpreadLevels levels_;
     Eigen::VectorXd reference_;
-    std::vector<std::vector<Part>> lots_;
+    std::vector<std::vector<Row>> lots_;
     std::size_t shots_ = 0;
 };
 

@@ -46,4 +46,14 @@ Eigen::VectorXd ShotLikelihood::whitened(const Eigen::VectorXd& predicted,
     return result;
 }
 
+Eigen::MatrixXd ShotLikelihood::inverse_root(std::size_t level) const {
+    const Eigen::Index n = measured_.size();
+    const double* entry =
+        inverse_roots_.data() + static_cast<std::size_t>(n * (n + 1) / 2) * level;
+    Eigen::MatrixXd root = Eigen::MatrixXd::Zero(n, n);
+    for (Eigen::Index i = 0; i < n; ++i)
+        for (Eigen::Index j = 0; j <= i; ++j) root(i, j) = *entry++;
+    return root;
+}
+
 }  // namespace taylorcal::calibrate

@@ -46,6 +46,13 @@ class ShotLikelihood {
 
     /// Number of sizes.
     std::size_t size() const { return columns_.size(); }
+    const Eigen::VectorXd& measured() const { return measured_; }
+    /// Which fitted sizes they are.
+    const std::vector<Eigen::Index>& columns() const { return columns_; }
+    /// L^-1 at one level, lower triangle.
+    Eigen::MatrixXd inverse_root(std::size_t level) const;
+    /// ln L of a perfect fit at one level: -(ln det C + n ln 2 pi)/2.
+    double log_norm(std::size_t level) const { return log_norms_[level]; }
 
   private:
     static constexpr Eigen::Index max_sizes = 16;

@@ -17,6 +17,21 @@ MapAxis parameter_axis(const WeightedDraws& draws, const ParameterSpace& space,
     low = std::max(low - margin, 0.0);
     high = std::min(high + margin, 1.0);
 
+    MapAxis axis = unit_axis(space, i, low, high, cells);
+    const double scale = static_cast<double>(cells) / (high - low);
+    for (const double value : u) {
+        const auto c = static_cast<Eigen::Index>(std::floor((value - low) * scale));
+        axis.cell.push_back(value < low || value > high ? -1 : std::min(c, cells - 1));
+    }
+    const double mean = u.dot(draws.weights);
+    const double sd = std::sqrt((u.array() - mean).square().matrix().dot(draws.weights));
+    const double size = 1 / draws.weights.squaredNorm();
+    axis.smoothing_cells = smoothing(sd, size, dimensions) * scale;
+    return axis;
+}
+
+MapAxis unit_axis(const ParameterSpace& space, std::size_t i, double low, double high,
+                  Eigen::Index cells) {
     MapAxis axis;
     axis.name = space.names()[i];
     axis.per_decade = space.parameter(i).log_uniform;
@@ -27,16 +42,11 @@ MapAxis parameter_axis(const WeightedDraws& draws, const ParameterSpace& space,
         axis.widths.push_back(axis.per_decade
                                   ? std::log10(axis.edges[c] / axis.edges[c - 1])
                                   : axis.edges[c] - axis.edges[c - 1]);
-    const double scale = static_cast<double>(cells) / (high - low);
-    for (const double value : u) {
-        const auto c = static_cast<Eigen::Index>(std::floor((value - low) * scale));
-        axis.cell.push_back(value < low || value > high ? -1 : std::min(c, cells - 1));
-    }
-    const double mean = u.dot(draws.weights);
-    const double sd = std::sqrt((u.array() - mean).square().matrix().dot(draws.weights));
-    const double size = 1 / draws.weights.squaredNorm();
-    axis.smoothing_cells = 0.9 * sd * std::pow(size, -1.0 / (4 + dimensions)) * scale;
     return axis;
+}
+
+double smoothing(double sd, double effective, int dimensions) {
+    return 0.9 * sd * std::pow(effective, -1.0 / (4 + dimensions));
 }
 
 MapAxis spread_axis(const WeightedDraws& draws, const SpreadLevels& levels) {

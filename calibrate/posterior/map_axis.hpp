@@ -28,6 +28,14 @@ struct MapAxis {
 MapAxis parameter_axis(const WeightedDraws& draws, const ParameterSpace& space,
                        std::size_t i, Eigen::Index cells, int dimensions);
 
+/// Axis of equal cells between two places of the unit interval, without draws or kernel.
+MapAxis unit_axis(const ParameterSpace& space, std::size_t i, double low, double high,
+                  Eigen::Index cells);
+
+/// Silverman's rule: standard deviation of the kernel for maps of `dimensions` made of
+/// `effective` draws.
+double smoothing(double sd, double effective, int dimensions);
+
 /// Axis of the relative spread, a cell a level.
 MapAxis spread_axis(const WeightedDraws& draws, const SpreadLevels& levels);
 

@@ -1,7 +1,5 @@
 #include "calibrate/posterior/maps.hpp"
 
-#include "calibrate/posterior/map_axis.hpp"
-
 namespace taylorcal::calibrate {
 namespace {
 
@@ -13,11 +11,7 @@ Map1d single_map(const WeightedDraws& draws, const MapAxis& axis) {
     for (std::size_t k = 0; k < axis.cell.size(); ++k)
         if (axis.cell[k] >= 0)
             mass(axis.cell[k], 0) += draws.weights(static_cast<Eigen::Index>(k));
-    mass = smooth_rows(mass, axis.smoothing_cells) / mass.sum();
-    Map1d map{axis.name, axis.per_decade ? "decade" : "unit", axis.edges, {}};
-    for (Eigen::Index c = 0; c < axis.cells(); ++c)
-        map.density.push_back(mass(c, 0) / axis.widths[static_cast<std::size_t>(c)]);
-    return map;
+    return single_density(axis, std::move(mass));
 }
 
 Map2d pair_map(const WeightedDraws& draws, const MapAxis& x, const MapAxis& y) {
@@ -25,6 +19,20 @@ Map2d pair_map(const WeightedDraws& draws, const MapAxis& x, const MapAxis& y) {
     for (std::size_t k = 0; k < x.cell.size(); ++k)
         if (x.cell[k] >= 0 && y.cell[k] >= 0)
             mass(x.cell[k], y.cell[k]) += draws.weights(static_cast<Eigen::Index>(k));
+    return pair_density(x, y, std::move(mass));
+}
+
+}  // namespace
+
+Map1d single_density(const MapAxis& axis, RowMatrix mass) {
+    mass = smooth_rows(mass, axis.smoothing_cells) / mass.sum();
+    Map1d map{axis.name, axis.per_decade ? "decade" : "unit", axis.edges, {}};
+    for (Eigen::Index c = 0; c < axis.cells(); ++c)
+        map.density.push_back(mass(c, 0) / axis.widths[static_cast<std::size_t>(c)]);
+    return map;
+}
+
+Map2d pair_density(const MapAxis& x, const MapAxis& y, RowMatrix mass) {
     mass /= mass.sum();
     mass = smooth_rows(mass, x.smoothing_cells);
     mass = smooth_rows(mass.transpose(), y.smoothing_cells).transpose().eval();
@@ -34,8 +42,6 @@ Map2d pair_map(const WeightedDraws& draws, const MapAxis& x, const MapAxis& y) {
                           y.widths[static_cast<std::size_t>(j)];
     return {x.name, y.name, x.edges, y.edges, mass};
 }
-
-}  // namespace
 
 Maps make_maps(const WeightedDraws& draws, const ParameterSpace& space,
                const SpreadLevels& levels) {

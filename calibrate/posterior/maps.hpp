@@ -1,6 +1,7 @@
 #pragma once
 
 #include "calibrate/likelihood/spread_levels.hpp"
+#include "calibrate/posterior/map_axis.hpp"
 #include "calibrate/sampling/draw_pool.hpp"
 #include "calibrate/sampling/parameter_space.hpp"
 
@@ -29,6 +30,11 @@ struct Maps {
     std::vector<Map1d> single;
     std::vector<Map2d> pairs;
 };
+
+/// Densities of a histogram: `mass` [cells x 1] or [cells of x, cells of y], smoothed by
+/// the axes' kernels.
+Map1d single_density(const MapAxis& axis, RowMatrix mass);
+Map2d pair_density(const MapAxis& x, const MapAxis& y, RowMatrix mass);
 
 /// Smoothed histograms of weighted draws over the range that they fill: every parameter,
 /// every pair of shared ones (the spread counts as shared) and each lot's own parameters

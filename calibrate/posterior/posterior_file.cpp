@@ -1,5 +1,6 @@
 #include "calibrate/posterior/posterior_file.hpp"
 
+#include "calibrate/posterior/maps_file.hpp"
 #include "common/errors.hpp"
 #include "common/hdf5_file.hpp"
 #include "common/provenance.hpp"
@@ -14,21 +15,6 @@
 
 namespace taylorcal::calibrate {
 namespace {
-
-void write_maps(Hdf5Writer& file, const Maps& maps) {
-    for (const Map1d& map : maps.single) {
-        const std::string group = "maps_1d/" + map.name;
-        file.numbers(group + "/edges", map.edges);
-        file.numbers(group + "/density", map.density);
-        file.attribute("per", map.per, group + "/density");
-    }
-    for (const Map2d& map : maps.pairs) {
-        const std::string group = "maps_2d/" + map.x_name + "__" + map.y_name;
-        file.numbers(group + "/x_edges", map.x_edges);
-        file.numbers(group + "/y_edges", map.y_edges);
-        file.matrix(group + "/density", map.density);
-    }
-}
 
 void write_maxima(Hdf5Writer& file, const std::vector<Maximum>& maxima,
                   const ParameterSpace& space, const SpreadLevels& levels) {
@@ -119,6 +105,7 @@ void write_posterior(const std::filesystem::path& path, const PosteriorResult& r
     file.attribute("names", space.names(), "reference");
     write_maxima(file, result.maxima, space, levels);
     write_maps(file, result.maps);
+    if (result.plain) write_findings(file, *result.plain, space, settings);
     file.close();
 }
 

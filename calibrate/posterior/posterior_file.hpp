@@ -2,9 +2,11 @@
 
 #include "calibrate/posterior/maps.hpp"
 #include "calibrate/posterior/maxima.hpp"
+#include "calibrate/posterior/plain_findings.hpp"
 #include "calibrate/sampling/sample_posterior.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +19,8 @@ struct PosteriorResult {
     Posterior posterior;
     Maps maps;
     std::vector<Maximum> maxima;
+    /// Of plain draws only.
+    std::optional<PlainFindings> plain;
 };
 
 /// Names of the columns of `draws` and `maxima`: the coordinates, then the spread if

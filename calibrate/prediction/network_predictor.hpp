@@ -26,9 +26,18 @@ class NetworkPredictor final : public Predictor {
     /// back lies outside what the network was trained on.
     void check_ranges(const DataSet& set) const;
 
+    const emulator::Emulator& emulator() const { return emulator_; }
+    /// All inputs of the network for a shot, plain; those of parameters are placeholders.
+    Eigen::VectorXd shot_point(const Shot& shot) const;
+    /// The calibrated parameter that feeds input `i`; negative if the shot does.
+    Eigen::Index parameter_of_input(std::size_t i) const {
+        return parameter_of_input_[i];
+    }
+    /// The network's outputs that are the fitted sizes.
+    const std::vector<int>& outputs() const { return outputs_; }
+
   private:
     void bind_inputs(const Settings& settings);
-    Eigen::VectorXd shot_point(const Shot& shot) const;
     const emulator::InputInfo& velocity() const;
 
     emulator::Emulator emulator_;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 
 namespace taylorcal::calibrate {
 namespace {
@@ -25,6 +24,7 @@ void DrawPool::shrink() {
     const auto last = draws_.begin() + static_cast<std::ptrdiff_t>(capacity_);
     std::nth_element(draws_.begin(), last, draws_.end(), higher_priority);
     draws_.erase(last + 1, draws_.end());
+    threshold_ = draws_.back().log_priority;
 }
 
 WeightedDraws DrawPool::weighted() const {

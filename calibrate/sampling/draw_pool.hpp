@@ -3,6 +3,7 @@
 #include "common/hdf5_file.hpp"
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include <Eigen/Core>
@@ -34,12 +35,17 @@ class DrawPool {
   public:
     explicit DrawPool(std::size_t capacity) : capacity_(capacity) {}
     void add(std::vector<ChosenDraw> draws);
+    /// Whether a draw of this priority could stay: saves making those that cannot.
+    bool may_stay(double log_priority) const { return log_priority >= threshold_; }
+    /// Everything held, to be added again to an empty pool of the same capacity.
+    const std::vector<ChosenDraw>& draws() const { return draws_; }
     /// The pool in the order of the draws' numbers.
     WeightedDraws weighted() const;
 
   private:
     void shrink();
     std::size_t capacity_;
+    double threshold_ = -std::numeric_limits<double>::infinity();
     std::vector<ChosenDraw> draws_;  // up to capacity + 1 stay: the last is the threshold
 };
 

@@ -73,11 +73,12 @@ BlockResult weigh(const DrawTable& table, const Pass& pass) {
 
 Posterior sample_posterior(const Settings& settings, const DataSet& set,
                            const ParameterSpace& space, const Predictor& predictor,
-                           int threads,
-                           const std::function<void(std::uint64_t)>& advance) {
+                           int threads, const std::function<void(std::uint64_t)>& advance,
+                           const Eigen::VectorXd* reference) {
     const auto start = std::chrono::steady_clock::now();
     const Adaptation adapted = adapt(settings, set, space, predictor, threads);
-    const LotLikelihood likelihood(settings, set, space, predictor, adapted.reference);
+    const LotLikelihood likelihood(settings, set, space, predictor,
+                                   reference ? *reference : adapted.reference);
     const Pass pass{
         likelihood,     adapted.proposal,       DrawNumbers(settings.seed, last_pass),
         settings.draws, settings.draws_per_lot, threads};
@@ -109,7 +110,7 @@ Posterior sample_posterior(const Settings& settings, const DataSet& set,
                             settings.draws * posterior.draws_per_lot * likelihood.shots();
     posterior.adaptations = adapted.passes;
     posterior.drawn_from_prior = adapted.proposal.is_prior();
-    posterior.reference = adapted.reference;
+    posterior.reference = likelihood.reference();
     const double seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     spdlog::info("{:.3g} shot predictions in {:.1f} s: {:.3g} a second",

@@ -26,10 +26,12 @@ struct Posterior {
 /// Samples the posterior: `adapt` finds a proposal, and the last pass draws afresh from
 /// it, so that the mean weight, the evidence, is unbiased. It streams: memory does not
 /// grow with the number of draws. The same bytes for any number of threads. `advance` is
-/// told of the draws of the last pass as they are done.
+/// told of the draws of the last pass as they are done. `reference`: where df/dv is
+/// taken, if not at the best draw.
 Posterior sample_posterior(const Settings& settings, const DataSet& set,
                            const ParameterSpace& space, const Predictor& predictor,
                            int threads,
-                           const std::function<void(std::uint64_t)>& advance = {});
+                           const std::function<void(std::uint64_t)>& advance = {},
+                           const Eigen::VectorXd* reference = nullptr);
 
 }  // namespace taylorcal::calibrate

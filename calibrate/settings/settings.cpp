@@ -126,9 +126,36 @@ std::uint64_t read_count(const JsonReader& reader, const char* key, std::uint64_
     return static_cast<std::uint64_t>(value);
 }
 
+/// How draws are made, and whether plain ones can be.
+void read_draws_from(const JsonReader& reader, Settings& settings) {
+    settings.draws_from =
+        reader.word("draws_from", {"adapted", "prior"}, "adapted") == "prior"
+            ? DrawsFrom::prior
+            : DrawsFrom::adapted;
+    settings.draw_sequence =
+        reader.word("draw_sequence", {"random", "sobol"}, "random") == "sobol"
+            ? DrawSequence::sobol
+            : DrawSequence::random;
+    if (settings.draws_from == DrawsFrom::adapted) {
+        if (settings.draw_sequence == DrawSequence::sobol)
+            reader.fail("draw_sequence",
+                        "= sobol is for plain draws (expected draws_from = prior).");
+        return;
+    }
+    const auto own = std::count_if(settings.parameters.begin(), settings.parameters.end(),
+                                   [](const Parameter& p) { return p.per_lot; });
+    constexpr std::size_t most_shared = 4;
+    if (own > 0 || settings.parameters.size() > most_shared)
+        reader.fail("draws_from",
+                    fmt::format("= prior is for at most {} shared parameters (found {}, "
+                                "of which {} belong to the lots). Use adapted.",
+                                most_shared, settings.parameters.size(), own));
+}
+
 Settings read(const JsonReader& reader) {
     reader.only({"parameters", "fit_sizes", "likelihood", "velocity_sd_relative",
-                 "unexplained_spread", "draws", "draws_per_lot", "seed", "kept_draws"});
+                 "unexplained_spread", "draws_from", "draw_sequence", "draws",
+                 "draws_per_lot", "seed", "kept_draws"});
     Settings settings;
     settings.parameters = read_parameters(reader);
     settings.fit_sizes = read_fit_sizes(reader);
@@ -138,6 +165,7 @@ Settings read(const JsonReader& reader) {
     settings.velocity_sd_relative =
         reader.number_in("velocity_sd_relative", 0, 0.5, settings.velocity_sd_relative);
     settings.unexplained_spread = read_spread(reader);
+    read_draws_from(reader, settings);
     settings.draws = read_count(reader, "draws", 100, settings.draws);
     settings.draws_per_lot =
         read_count(reader, "draws_per_lot", 1, settings.draws_per_lot);

@@ -32,6 +32,14 @@ struct UnexplainedSpread {
 /// deviations.
 enum class LikelihoodForm { full, paper };
 
+/// Where draws come from: a proposal that is adapted to the posterior, or the prior
+/// itself (plain draws in one long pass, of at most four shared parameters).
+enum class DrawsFrom { adapted, prior };
+
+/// How plain draws follow each other: as random numbers, or as a scrambled Sobol
+/// sequence.
+enum class DrawSequence { random, sobol };
+
 /// The configuration of `calibrate sample` and `calibrate compare` (calibrate.json).
 struct Settings {
     std::vector<Parameter> parameters;
@@ -39,6 +47,8 @@ struct Settings {
     LikelihoodForm likelihood = LikelihoodForm::full;
     double velocity_sd_relative = 0.01;
     std::optional<UnexplainedSpread> unexplained_spread;
+    DrawsFrom draws_from = DrawsFrom::adapted;
+    DrawSequence draw_sequence = DrawSequence::random;
     std::uint64_t draws = 20000;       ///< of the shared parameters
     std::uint64_t draws_per_lot = 32;  ///< of a lot's own parameters, for each of them
     std::uint64_t seed = 1;

@@ -101,3 +101,16 @@ TEST_CASE("bad settings are refused with the key's name", "[settings]") {
         CHECK_THAT(complaint(bad), Contains("draws") && Contains("100"));
     }
 }
+
+TEST_CASE("plain draws are for a few shared parameters", "[settings]") {
+    json settings = good();
+    settings["draw_sequence"] = "sobol";
+    CHECK_THAT(complaint(settings), Contains("draw_sequence") && Contains("prior"));
+    settings["draws_from"] = "prior";
+    CHECK_THAT(complaint(settings), Contains("draws_from") && Contains("adapted"));
+    settings["parameters"][1]["scope"] = "shared";
+    const Settings read = parse_settings(settings, "calibrate.json");
+    CHECK(read.draws_from == DrawsFrom::prior);
+    CHECK(read.draw_sequence == DrawSequence::sobol);
+    CHECK(parse_settings(good(), "calibrate.json").draws_from == DrawsFrom::adapted);
+}

@@ -1,4 +1,7 @@
 #include "common/atomic_file.hpp"
+#include "common/program_code.hpp"
+#include "common/sha256.hpp"
+#include "common/simd.hpp"
 #include "emulator/commands/commands.hpp"
 #include "emulator/inference/emulator.hpp"
 #include "emulator/training/quality.hpp"
@@ -7,6 +10,19 @@
 #include <spdlog/spdlog.h>
 
 namespace taylorcal::emulator {
+
+namespace {
+
+/// Digest of all that the network's bytes follow from.
+std::string training_key(const TrainArguments& arguments) {
+    std::string all = program_code() + ' ' + simd::name(simd::variant());
+    for (const auto& file :
+         {arguments.database, arguments.better, arguments.config, arguments.from})
+        all += ' ' + (file.empty() ? std::string("none") : sha256_of_file(file));
+    return sha256(all);
+}
+
+}  // namespace
 
 int train(const TrainArguments& arguments) {
     const TrainConfig config = read_train_config(arguments.config);
@@ -19,12 +35,15 @@ int train(const TrainArguments& arguments) {
             std::move(data),
             read_dataset(arguments.better, inputs, config.category, outputs),
             arguments.better.string());
-    const Model model =
-        arguments.from.empty()
-            ? train_emulator(config, data, arguments.threads)
-            : train_further(Emulator::from_file(arguments.from).model(),
-                            arguments.from.string(), config, data, arguments.threads);
+    const Checkpoints checkpoints(arguments.out.string() + ".checkpoint",
+                                  training_key(arguments));
+    const Model model = arguments.from.empty()
+                            ? train_emulator(config, data, arguments.threads, checkpoints)
+                            : train_further(Emulator::from_file(arguments.from).model(),
+                                            arguments.from.string(), config, data,
+                                            arguments.threads, checkpoints);
     write_text_atomically(arguments.out, to_json(model).dump() + "\n");
+    checkpoints.remove(model.members.size());
     spdlog::info(
         "held-out rows: RMS {:.3f} %, largest error {:.2f} % (of each output's mean); "
         "best is member {} of {}",

@@ -41,19 +41,27 @@ std::vector<MemberSettings> member_settings(const TrainConfig& config,
 
 std::vector<Member> train_members(const std::vector<MemberSettings>& settings,
                                   const Samples& training, const Samples& validation,
-                                  int threads) {
+                                  int threads, const Checkpoints& checkpoints) {
     std::vector<Member> members(settings.size());
     const auto count = static_cast<int>(settings.size());
     const auto epochs = static_cast<std::uint64_t>(settings.front().epochs);
     Progress progress("training, epochs of all members", epochs * settings.size());
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
     for (int i = 0; i < count; ++i) {
-        const auto after_epoch = [&](double rms) {
+        const auto member = static_cast<std::size_t>(i);
+        MemberWatch watch;
+        watch.interval_s = checkpoints.interval_s();
+        watch.found = checkpoints.found(member);
+        watch.keep = [&](const MemberState& state) { checkpoints.keep(member, state); };
+        watch.after_epoch = [&](double rms) {
             progress.advance(1, fmt::format("member {} at {:.4f}", i, rms));
         };
-        const auto member = static_cast<std::size_t>(i);
-        members[member] =
-            train_member(settings[member], training, validation, after_epoch);
+        if (watch.found) {
+            spdlog::info("member {} goes on after {} of {} epochs", i,
+                         watch.found->epochs, epochs);
+            progress.advance(static_cast<std::uint64_t>(watch.found->epochs));
+        }
+        members[member] = train_member(settings[member], training, validation, watch);
     }
     return members;
 }
@@ -114,7 +122,7 @@ void judge(Model& model, const Dataset& data, const Split& split) {
 /// Trains the members of a described model: from random weights, or from its members if
 /// it has some.
 void learn(Model& model, const TrainConfig& config, const Dataset& data,
-           const Split& split, int threads) {
+           const Split& split, int threads, const Checkpoints& checkpoints) {
     const Samples training = standardise(model, data, split.training);
     const Samples validation = standardise(model, data, split.validation);
     std::vector<MemberSettings> settings = member_settings(config, training);
@@ -126,7 +134,7 @@ void learn(Model& model, const TrainConfig& config, const Dataset& data,
                  config.members, model.members.empty() ? "" : ", trained before");
 
     const auto start = std::chrono::steady_clock::now();
-    model.members = train_members(settings, training, validation, threads);
+    model.members = train_members(settings, training, validation, threads, checkpoints);
     const std::chrono::duration<double> elapsed =
         std::chrono::steady_clock::now() - start;
     const double shown =
@@ -146,7 +154,8 @@ void learn(Model& model, const TrainConfig& config, const Dataset& data,
 
 }  // namespace
 
-Model train_emulator(const TrainConfig& given, const Dataset& data, int threads) {
+Model train_emulator(const TrainConfig& given, const Dataset& data, int threads,
+                     const Checkpoints& checkpoints) {
     TrainConfig config = given;
     const Split split = split_rows(data, config.validation_fraction, config.seed);
     Model model = describe(config, data, split);
@@ -154,16 +163,16 @@ Model train_emulator(const TrainConfig& given, const Dataset& data, int threads)
         const auto varying = std::ranges::count_if(model.inputs, &InputInfo::used);
         config.neurons = static_cast<int>(4 * varying + 1);
     }
-    learn(model, config, data, split, threads);
+    learn(model, config, data, split, threads, checkpoints);
     return model;
 }
 
 Model train_further(const Model& old, const std::string& where, const TrainConfig& config,
-                    const Dataset& data, int threads) {
+                    const Dataset& data, int threads, const Checkpoints& checkpoints) {
     const Split split = split_rows(data, config.validation_fraction, config.seed);
     Model model = describe(config, data, split);
     widen(model, old, where);
-    learn(model, config, data, split, threads);
+    learn(model, config, data, split, threads, checkpoints);
     model.provenance["from"] = old.provenance;
     return model;
 }

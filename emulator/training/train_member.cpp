@@ -4,6 +4,7 @@
 #include "emulator/training/streams.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -68,15 +69,22 @@ double validation_rms(FloatNetwork& network, const Batch& held_out) {
     return std::sqrt(static_cast<double>(error.square().sum() / held_out.mask.sum()));
 }
 
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
 }  // namespace
 
 Member train_member(const MemberSettings& settings, const Samples& training,
-                    const Samples& validation,
-                    const std::function<void(double)>& after_epoch) {
+                    const Samples& validation, const MemberWatch& watch) {
     const bool goes_on = !settings.start.empty();
     FloatNetwork network = goes_on ? FloatNetwork(settings.start)
                                    : FloatNetwork(settings.widths, settings.seed);
-    Adam<float> adam(network.parameters().size());
+    if (watch.found) network.parameters() = watch.found->parameters;
+    Adam<float> adam = watch.found ? Adam<float>(watch.found->adam)
+                                   : Adam<float>(network.parameters().size());
     const RandomStream random(settings.seed, streams::shuffle);
 
     std::vector<Eigen::Index> order(static_cast<std::size_t>(training.rows()));
@@ -91,10 +99,15 @@ Member train_member(const MemberSettings& settings, const Samples& training,
     const std::size_t batches = (order.size() + batch_size - 1) / batch_size;
     const int epochs_between_looks = std::max(1, settings.epochs / 500);
     Batch batch;
-    FloatNetwork::Vector best = network.parameters();
-    double lowest = goes_on ? validation_rms(network, held_out)
-                            : std::numeric_limits<double>::infinity();
-    for (int epoch = 0; epoch < settings.epochs; ++epoch) {
+    FloatNetwork::Vector best = watch.found ? watch.found->best : network.parameters();
+    double lowest = watch.found ? watch.found->lowest
+                    : goes_on   ? validation_rms(network, held_out)
+                                : std::numeric_limits<double>::infinity();
+    const int first = watch.found ? watch.found->epochs : 0;
+    // Each shuffle starts from the order that the one before left.
+    for (int epoch = 0; epoch < first; ++epoch) shuffle(order, random, epoch);
+    Clock::time_point kept = Clock::now();
+    for (int epoch = first; epoch < settings.epochs; ++epoch) {
         shuffle(order, random, epoch);
         for (std::size_t b = 0; b < batches; ++b) {
             batch.gather(training, order, b * order.size() / batches,
@@ -115,7 +128,11 @@ Member train_member(const MemberSettings& settings, const Samples& training,
                 best = network.parameters();
             }
         }
-        after_epoch(lowest);
+        watch.after_epoch(lowest);
+        if (seconds_since(kept) >= watch.interval_s || epoch + 1 == settings.epochs) {
+            watch.keep({epoch + 1, network.parameters(), adam.state(), best, lowest});
+            kept = Clock::now();
+        }
     }
     network.parameters() = best;
     return {network.layers(), settings.seed, settings.batch_size, settings.learning_rate,

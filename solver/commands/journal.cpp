@@ -9,6 +9,8 @@
 #include <fcntl.h>
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace taylorcal::commands {
@@ -23,29 +25,51 @@ std::string difference(const nlohmann::json& found, const nlohmann::json& wanted
     return "it has other keys";
 }
 
+/// Whether `path` still leads to the open file: a batch that ends deletes its journal.
+bool is_there(const std::filesystem::path& path, int descriptor) {
+    struct stat open {
+    }, named{};
+    return ::fstat(descriptor, &open) == 0 && ::stat(path.c_str(), &named) == 0 &&
+           open.st_ino == named.st_ino && open.st_dev == named.st_dev;
+}
+
 }  // namespace
+
+/// Opens the file for this process alone; the system lets go of it when the process ends,
+/// however it ends. A file system without locks goes without.
+void Journal::open() {
+    do {
+        file_.close();
+        file_.number = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644);
+        require(file_.number >= 0,
+                fmt::format("{}: cannot be written ({}). Choose a folder that exists and "
+                            "that you may write to.",
+                            path_.string(), std::strerror(errno)));
+        require(::flock(file_.number, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK,
+                fmt::format("{}: another batch with this output is running. Wait for it "
+                            "or stop it, then start again: finished runs are kept.",
+                            path_.string()));
+    } while (!is_there(path_, file_.number));
+}
 
 Journal::Journal(std::filesystem::path path, const nlohmann::json& header)
     : path_(std::move(path)) {
-    std::string text;
-    if (std::filesystem::exists(path_)) text = read_text(path_);
+    open();
+    std::string text = read_text(path_);
     const std::size_t last_newline = text.rfind('\n');
     text.resize(last_newline == std::string::npos ? 0 : last_newline + 1);
     if (!text.empty()) read_lines(text, header);
 
-    descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT, 0644);
+    size_ = static_cast<std::int64_t>(text.size());
     require(
-        descriptor_ >= 0 &&
-            ::ftruncate(descriptor_, static_cast<off_t>(text.size())) == 0 &&
-            ::lseek(descriptor_, 0, SEEK_END) >= 0,
-        fmt::format("{}: cannot be written ({}). Choose a folder that exists and that "
-                    "you may write to.",
-                    path_.string(), std::strerror(errno)));
+        ::ftruncate(file_.number, size_) == 0 && ::lseek(file_.number, 0, SEEK_END) >= 0,
+        fmt::format("{}: cannot be written ({}).", path_.string(), std::strerror(errno)));
     if (text.empty()) append_line(header.dump());
 }
 
-Journal::~Journal() {
-    if (descriptor_ >= 0) ::close(descriptor_);
+void Journal::Descriptor::close() {
+    if (number >= 0) ::close(number);
+    number = -1;
 }
 
 void Journal::read_lines(const std::string& text, const nlohmann::json& header) {
@@ -76,17 +100,27 @@ void Journal::append(const FinishedRun& run) { append_line(to_json(run).dump());
 
 void Journal::append_line(const std::string& line) {
     const std::string text = line + "\n";
-    const auto written = ::write(descriptor_, text.data(), text.size());
-    if (written != static_cast<ssize_t>(text.size()) || ::fsync(descriptor_) != 0)
-        throw std::runtime_error(
-            fmt::format("{}: cannot be written ({}). Is the disk full?", path_.string(),
-                        std::strerror(errno)));
+    const auto written = ::write(file_.number, text.data(), text.size());
+    if (written == static_cast<ssize_t>(text.size()) && ::fsync(file_.number) == 0) {
+        size_ += written;
+        return;
+    }
+    const std::string problem =
+        written < 0 || written == static_cast<ssize_t>(text.size())
+            ? std::strerror(errno)
+            : "no space for the whole line";
+    // Half a line amid others would make the journal unreadable; at the end it is
+    // dropped.
+    if (::ftruncate(file_.number, size_) == 0) ::lseek(file_.number, size_, SEEK_SET);
+    throw std::runtime_error(
+        fmt::format("{}: cannot be written ({}). Make space and start again: finished "
+                    "runs are kept.",
+                    path_.string(), problem));
 }
 
 void Journal::remove() {
-    ::close(descriptor_);
-    descriptor_ = -1;
-    std::filesystem::remove(path_);
+    std::filesystem::remove(path_);  // before another process may take it over
+    file_.close();
 }
 
 }  // namespace taylorcal::commands

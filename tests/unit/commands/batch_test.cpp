@@ -6,7 +6,10 @@
 #include "solver/commands/merge.hpp"
 #include "tests/unit/commands/small_batch.hpp"
 
+#include <csignal>
+
 #include <catch2/catch.hpp>
+#include <sys/resource.h>
 
 namespace {
 
@@ -75,6 +78,56 @@ TEST_CASE("a journal of another batch is refused with the remedy", "[batch]") {
         CHECK_THROWS_WITH(batch.run("other.h5", 1), Contains("line 6: damaged"));
     }
     CHECK(std::filesystem::exists(path));
+}
+
+TEST_CASE("two batches do not compute one output at once", "[batch]") {
+    const SmallBatch batch;
+    const std::string whole = batch.run("whole.h5", 1);
+    std::string refusal;
+    const std::string first =
+        batch.run("same.h5", 1, [&](const impact::ImpactCase& impact_case) {
+            try {
+                if (refusal.empty()) batch.run("same.h5", 1);
+            } catch (const InputError& error) {
+                refusal = error.what();
+            }
+            return quick_answer(impact_case);
+        });
+    CHECK_THAT(refusal,
+               Contains("same.h5.journal.jsonl: another batch with this output"));
+    CHECK(first == whole);
+    CHECK(batch.run("same.h5", 1) == whole);
+}
+
+TEST_CASE("a full disk costs no finished run", "[batch]") {
+    // A file size limit stands for the full disk; the signal that it sends is ignored.
+    const SmallBatch batch;
+    const std::string whole = batch.run("whole.h5", 1);
+    const auto journal = batch.folder / "full.h5.journal.jsonl";
+    const std::size_t room = journal_of_first(batch, 4).size() + 10;
+    struct rlimit before {};
+    REQUIRE(::getrlimit(RLIMIT_FSIZE, &before) == 0);
+    const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+    const struct rlimit small { room, before.rlim_max };
+    REQUIRE(::setrlimit(RLIMIT_FSIZE, &small) == 0);
+    std::string problem;
+    try {
+        batch.run("full.h5", 2);
+    } catch (const std::exception& error) {
+        problem = error.what();
+    }
+    REQUIRE(::setrlimit(RLIMIT_FSIZE, &before) == 0);
+    std::signal(SIGXFSZ, handler);
+    CHECK_THAT(problem, Contains("full.h5.journal.jsonl: cannot be written") &&
+                            Contains("finished runs are kept"));
+    CHECK(read_text(journal).size() < room);
+    CHECK(read_text(journal).back() == '\n');
+    std::atomic<int> computed = 0;
+    CHECK(batch.run("full.h5", 2, [&](const impact::ImpactCase& impact_case) {
+        ++computed;
+        return quick_answer(impact_case);
+    }) == whole);
+    CHECK(computed == 5);
 }
 
 TEST_CASE("a run that fails becomes a row with its reason", "[batch]") {

@@ -3,8 +3,8 @@ SHELL := /bin/bash
 .SHELLFLAGS := -euo pipefail -c
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help setup configure build demo diagnose test bench paper accuracy discovery clean paper-calibration \
-        lint lint-format lint-tidy lint-workflow lint-python
+.PHONY: help setup configure build demo diagnose test bench paper paper-calibration accuracy \
+        discovery eos clean lint lint-format lint-tidy lint-workflow lint-python
 
 # Debian's own interpreters: another python3 first on PATH would lack the packages.
 PYTHON := /usr/bin/python3
@@ -79,6 +79,13 @@ paper-calibration: build ## the source paper's calibration, DRAWS=1e7 in minutes
 discovery: build ## blind tables with hidden effects: how often are they found?
 	$(SNAKEMAKE) --snakefile tests/discovery/Snakefile --cores $(JOBS) --rerun-incomplete --keep-going
 	@cat tests/discovery/results/scores.md
+
+eos: build ## equation of state: molecular dynamics, network and its checks; half an hour
+	@.ci/setup --with eos
+	$(SNAKEMAKE) --snakefile experiments/equation_of_state/Snakefile --cores $(JOBS)
+	@$(PYTHON) workflow/scripts/compare_states.py results/equation_of_state \
+	    experiments/equation_of_state
+	@cat results/equation_of_state/checks.md results/equation_of_state/sizes.md
 
 bench: build ## speed of the solver, the network and the sampler
 	@.ci/bench $(BUILD)

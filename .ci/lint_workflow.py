@@ -13,6 +13,7 @@ WAIVED = "Specify a conda environment or container for each rule."
 
 SNAKEFILES = ["Snakefile", "tests/verification/Snakefile"]
 SNAKEFILES += ["tests/discovery/Snakefile", "tests/discovery/study/Snakefile"]
+SNAKEFILES += ["experiments/equation_of_state/Snakefile"]
 
 
 def lint(snakefile: str) -> int:

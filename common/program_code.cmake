@@ -4,7 +4,9 @@
 # whether a program that was rebuilt computes what it did before. Lines that are comments
 # alone do not count. The compiler does not count either, nor do options of the command
 # line: they may change the last digits, as another processor does.
-set(solver CMakeLists.txt common solver)
+# The solver asks the network of its equation of state.
+set(solver CMakeLists.txt common emulator/CMakeLists.txt emulator/inference
+  experiments/equation_of_state/network.json solver)
 set(emulator CMakeLists.txt common emulator)
 # The sampler answers by the network, and does not train it.
 set(calibrate CMakeLists.txt common emulator/CMakeLists.txt emulator/inference calibrate)

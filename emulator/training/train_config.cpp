@@ -71,8 +71,8 @@ std::vector<Number> list_in(const JsonReader& reader, std::string_view key, doub
 TrainConfig train_config_from_json(const nlohmann::json& file, const std::string& where) {
     const JsonReader reader(file, where);
     reader.only({"inputs", "category", "outputs", "hidden_layers", "neurons", "members",
-                 "epochs", "batch_sizes", "learning_rates", "validation_fraction",
-                 "seed"});
+                 "epochs", "batch_sizes", "learning_rates", "weight_decay",
+                 "validation_fraction", "seed"});
     TrainConfig config;
     config.inputs = read_inputs(reader);
     if (reader.has("category") && !file.at("category").is_null()) {
@@ -88,6 +88,7 @@ TrainConfig train_config_from_json(const nlohmann::json& file, const std::string
         list_in<int>(reader, "batch_sizes", 1, 65536, config.batch_sizes);
     config.learning_rates =
         list_in<double>(reader, "learning_rates", 1e-8, 1, config.learning_rates);
+    config.weight_decay = reader.number_in("weight_decay", 0, 10, config.weight_decay);
     config.validation_fraction =
         reader.number_in("validation_fraction", 0.01, 0.9, config.validation_fraction);
     constexpr double largest_seed = 0x1p53;  // Beyond, JSON numbers lose digits.

@@ -30,6 +30,7 @@ std::vector<MemberSettings> member_settings(const TrainConfig& config,
         settings.batch_size = config.batch_sizes[i % config.batch_sizes.size()];
         settings.learning_rate = config.learning_rates[i % config.learning_rates.size()];
         settings.epochs = config.epochs;
+        settings.weight_decay = config.weight_decay;
         settings.widths.push_back(samples.inputs.rows());
         settings.widths.insert(settings.widths.end(),
                                static_cast<std::size_t>(config.hidden_layers),

@@ -15,6 +15,7 @@ struct MemberSettings {
     std::uint64_t seed = 1;  ///< Of the first weights and the order of the rows.
     int batch_size = 32;
     double learning_rate = 1e-2;  ///< The largest.
+    double weight_decay = 0.1;    ///< At the start.
     int epochs = 1000;
     std::vector<Layer> start;  ///< Layers to go on from; empty: random ones of `widths`.
 };

@@ -6,6 +6,7 @@
 #include "common/provenance.hpp"
 #include "solver/commands/journal.hpp"
 #include "solver/commands/run_table.hpp"
+#include "solver/commands/solver_provenance.hpp"
 #include "solver/impact/simulate.hpp"
 
 #include <exception>
@@ -59,7 +60,7 @@ nlohmann::json journal_header(const Design& design, const nlohmann::json& config
 
 /// Provenance of many runs: each has its own seed, in the table.
 nlohmann::json batch_provenance(const nlohmann::json& configuration) {
-    nlohmann::json record = provenance("solver", 0, configuration);
+    nlohmann::json record = solver_provenance(0, configuration);
     record["seed"] = "one a run, see the dataset \"seed\"";
     return record;
 }

@@ -14,7 +14,8 @@ namespace taylorcal::commands {
 namespace {
 
 constexpr const char* path_help = R"(PATH is a JSON file:
-  equation_of_state            "copper" or "linear" (constant modulus, for verification)
+  equation_of_state            "copper", "copper_md" (a network trained on molecular
+                               dynamics) or "linear" (constant modulus, for verification)
   orientation_quaternion_wxyz  rotation from the crystal frame to the lab frame
   time_step_s                  largest step
   segments                     list of {"velocity_gradient_per_s": 3 x 3 with

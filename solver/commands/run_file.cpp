@@ -1,8 +1,8 @@
 #include "solver/commands/run_file.hpp"
 
 #include "common/hdf5_file.hpp"
-#include "common/provenance.hpp"
 #include "solver/commands/run_table.hpp"
+#include "solver/commands/solver_provenance.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -85,8 +85,7 @@ void write_run_file(const std::filesystem::path& path, const impact::ImpactResul
     file.attribute("question", description.dump());
     file.attribute(
         "provenance",
-        provenance("solver", description["seed"].get<std::uint64_t>(), description)
-            .dump());
+        solver_provenance(description["seed"].get<std::uint64_t>(), description).dump());
     file.close();
 }
 

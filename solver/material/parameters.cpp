@@ -47,7 +47,7 @@ const std::vector<std::string>& strength_names() {
 }
 
 const std::vector<std::string>& equation_of_state_names() {
-    static const std::vector<std::string> names = {"copper", "linear"};
+    static const std::vector<std::string> names = {"copper", "linear", "copper_md"};
     return names;
 }
 

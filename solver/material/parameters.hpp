@@ -7,7 +7,7 @@
 namespace taylorcal::material {
 
 enum class StrengthModel { dislocation, j2, johnson_cook, elastic };
-enum class EquationOfStateModel { copper, linear };
+enum class EquationOfStateModel { copper, linear, copper_md };
 
 /// Every constant of the material, SI units, at its default (MODEL.md's Table 1 and the
 /// published optimum ii). Names are those that users write; `symbol` is the paper's.

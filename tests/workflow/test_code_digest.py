@@ -11,7 +11,7 @@ import code_digest
 from code_digest import modules_of, script_digest
 
 PROGRAMS = ["solver", "emulator", "calibrate"]
-FOLDERS = ["common", "solver", "emulator", "calibrate"]
+FOLDERS = ["common", "solver", "emulator", "calibrate", "experiments/equation_of_state"]
 
 
 @pytest.fixture(scope="module")
@@ -50,7 +50,8 @@ def test_a_clone_has_the_digests_of_the_checkout(sources, tmp_path):
         ("solver/material/material.hpp", "int further;", ["solver"]),
         ("solver/effects/further.cpp", "int further;", ["solver"]),
         ("emulator/training/adam.cpp", "int further;", ["emulator"]),
-        ("emulator/inference/model.hpp", "int further;", ["emulator", "calibrate"]),
+        ("emulator/inference/model.hpp", "int further;", PROGRAMS),
+        ("experiments/equation_of_state/network.json", " ", ["solver"]),
         ("calibrate/sampling/further.cpp", "int further;", ["calibrate"]),
         ("common/random.cpp", "  // a remark; with [brackets]", []),
         ("common/README.md", "words", []),

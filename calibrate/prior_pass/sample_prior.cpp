@@ -20,7 +20,7 @@ constexpr double dropped_share = 1e-6;
 /// Effective draws of the short adapted sampling are about a third.
 constexpr std::uint64_t pilot_draws = 20000;
 
-constexpr std::size_t pool_per_kept = 8;
+constexpr std::size_t pooled_per_kept = 8;
 
 Settings pilot_settings(Settings settings) {
     settings.draws_from = DrawsFrom::adapted;
@@ -76,7 +76,7 @@ PlainResult sample_prior(const Settings& settings, const DataSet& set,
         UnitSequence(DrawSequence::random, settings.seed + 1, space.size()));
     RunningResult result(pruning, space, likelihood.levels(),
                          ranges_of(pilot.pool, space), settings.draw_sequence,
-                         settings.seed, pool_per_kept * settings.kept_draws);
+                         settings.seed, pooled_per_kept * settings.kept_draws);
     const auto start = std::chrono::steady_clock::now();
     const std::uint64_t resumed =
         run_plain_pass(pass, result, run.threads, run.checkpoint, run.advance);
@@ -103,8 +103,8 @@ PlainResult sample_prior(const Settings& settings, const DataSet& set,
     plain.dropping = {result.dropped_bound(), static_cast<double>(result.rows_seen()) /
                                                   static_cast<double>(result.draws())};
     spdlog::info(
-        "{:.3g} plain draws in {:.1f} s, {:.3g} a second and thread, {:.2f} of {} rows "
-        "each; "
+        "{:.3g} plain draws in {:.1f} s, {:.3g} a second and thread, {:.2f} of {} "
+        "rows each; "
         "dropped draws hold less than {:.1e} of the posterior",
         static_cast<double>(settings.draws - resumed), seconds,
         static_cast<double>(settings.draws - resumed) / seconds / run.threads,

@@ -29,8 +29,8 @@ class Network:
         self.layers = [(np.array(x["weights"]), np.array(x["bias"])) for x in layers]
         self.covariances = model["validation"]["covariance"]
 
-    def sizes(self, shape: str, values: dict) -> np.ndarray:
-        """Outputs [points x outputs] in mm; each value is a number or an array."""
+    def sizes(self, shape, values: dict) -> np.ndarray:
+        """Outputs [points x outputs] in mm; shape and each value are one or an array."""
         values = {name: np.asarray(value, float) for name, value in values.items()}
         points = max(value.size for value in values.values())
         columns = []
@@ -41,8 +41,8 @@ class Network:
             if info.get("transform") == "log10":
                 value = np.log10(value)
             columns.append(np.broadcast_to((value - info["shift"]) / info["scale"], points))
-        hot = np.array([float(shape == name) for name in self.shapes])
-        signal = np.vstack([*columns, np.outer(hot, np.ones(points))])
+        hot = [np.broadcast_to(np.equal(shape, name).astype(float), points) for name in self.shapes]
+        signal = np.vstack([*columns, *hot])
         for number, (weights, bias) in enumerate(self.layers):
             signal = weights @ signal + bias[:, None]
             if number + 1 < len(self.layers):
@@ -93,12 +93,20 @@ class TableLikelihood:
     def __call__(self, units: np.ndarray) -> np.ndarray:
         plain = self.plain(units)
         by_level = np.tile(self.log_mass, (len(plain), 1))
-        for shot, at, measured, inverses, norms in self.rows:
-            residual = measured - self._predict(shot, plain)[:, at]
+        # All rows go through the network in one block, row by row.
+        shapes = np.repeat([row[0]["shape"] for row in self.rows], len(plain))
+        values = {
+            name: np.repeat([row[0]["values"][name] for row in self.rows], len(plain))
+            for name in SHOT_INPUTS
+        }
+        for parameter, column in zip(self.parameters, plain.T):
+            values[parameter["name"]] = np.tile(column, len(self.rows))
+        predicted = self.network.sizes(shapes, values).reshape(len(self.rows), len(plain), -1)
+        for sizes, (_, at, measured, inverses, norms) in zip(predicted, self.rows):
+            residual = measured - sizes[:, at]
             for level, (inverse, norm) in enumerate(zip(inverses, norms)):
-                by_level[:, level] += norm - 0.5 * np.einsum(
-                    "ni,ij,nj->n", residual, inverse, residual
-                )
+                chi2 = ((residual @ inverse) * residual).sum(axis=1)
+                by_level[:, level] += norm - 0.5 * chi2
         largest = by_level.max(axis=1)
         return largest + np.log(np.exp(by_level - largest[:, None]).sum(axis=1))
 

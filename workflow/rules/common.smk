@@ -1,4 +1,5 @@
 # What the rules share: the study's settings stage by stage, and names of files.
+import os
 import sys
 from functools import cache
 from pathlib import Path
@@ -18,6 +19,10 @@ from study import EXPERIMENTS, STAGE_SETTINGS, at_revision, chunk_count, design_
 from study import load_study, new_runs, uses_outlines
 
 min_version("7.21")
+
+# Not a parameter of the rules: which runs are taken from the cache changes no result.
+if config["run_cache"]:
+    os.environ["TAYLORCAL_RUN_CACHE"] = config["run_cache"]
 
 
 # {study} is a home, so that every rule serves the base and each revision; {name} is the

@@ -1,5 +1,4 @@
 # What the rules share: the study's settings stage by stage, and names of files.
-import os
 import sys
 from functools import cache
 from pathlib import Path
@@ -15,14 +14,13 @@ from input_errors import InputError
 from measurements import check_against_study, read_measurements
 from outlines.table import check_outlines
 from revisions import HOME, homes_of, previous_home, split_home
+from run_cache import use_run_cache
 from study import EXPERIMENTS, STAGE_SETTINGS, at_revision, chunk_count, design_settings
 from study import load_study, new_runs, uses_outlines
 
 min_version("7.21")
 
-# Not a parameter of the rules: which runs are taken from the cache changes no result.
-if config["run_cache"]:
-    os.environ["TAYLORCAL_RUN_CACHE"] = config["run_cache"]
+use_run_cache(config["run_cache"])
 
 
 # {study} is a home, so that every rule serves the base and each revision; {name} is the

@@ -3,8 +3,8 @@ SHELL := /bin/bash
 .SHELLFLAGS := -euo pipefail -c
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help setup configure build demo diagnose test bench paper paper-calibration accuracy \
-        discovery eos clean lint lint-format lint-tidy lint-workflow lint-python
+.PHONY: help setup configure build demo diagnose test kills bench paper paper-calibration \
+        accuracy discovery eos clean lint lint-format lint-tidy lint-workflow lint-python
 
 # Debian's own interpreters: another python3 first on PATH would lack the packages.
 PYTHON := /usr/bin/python3
@@ -14,6 +14,7 @@ BUILD := build
 JOBS ?= $(shell nproc)
 STUDY ?= copper_measured
 DRAWS ?= 1e10
+PYTHON_FILES := $(shell git ls-files '*.py') workflow/taylorcal
 LAUNCHER := $(if $(shell command -v ccache),-D CMAKE_CXX_COMPILER_LAUNCHER=ccache)
 
 
@@ -40,6 +41,9 @@ test: build ## unit, verification and workflow tests
 	ctest --test-dir $(BUILD) --output-on-failure --parallel $(JOBS)
 	$(PYTHON) -m pytest
 
+kills: build ## the heavy test: 300 runs whose workflow is killed 20 times; minutes
+	TAYLORCAL_KILLS=20 $(PYTHON) -m pytest -s tests/workflow/test_interruptions.py -k killed_at_random
+
 lint: lint-format lint-python lint-workflow lint-tidy ## style and static checks; warnings are errors
 
 lint-format: setup
@@ -57,8 +61,8 @@ lint-workflow: setup
 	$(PYTHON) .ci/lint_workflow.py
 
 lint-python: setup
-	@black --check $(shell git ls-files '*.py')
-	@flake8 $(shell git ls-files '*.py')
+	@black --check $(PYTHON_FILES)
+	@flake8 $(PYTHON_FILES)
 
 paper: build ## the source paper's statements beside ours, with figures
 	$(SNAKEMAKE) --snakefile tests/verification/Snakefile --cores $(JOBS) paper

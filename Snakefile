@@ -23,6 +23,26 @@ include: "workflow/rules/report.smk"
 include: "workflow/rules/diagnosis_page.smk"
 
 
+# What takes seconds is not worth a job of a cluster.
+localrules:
+    all,
+    settings,
+    design,
+    merge,
+    outline_basis,
+    score_database,
+    score_measurements,
+    compare,
+    confirmation_design,
+    confirm,
+    ladder,
+    candidates,
+    signature_design,
+    signatures,
+    report,
+    diagnosis_page,
+
+
 rule all:
     default_target: True
     input:

@@ -10,6 +10,7 @@
 
 #include <fcntl.h>
 #include <fmt/core.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 namespace taylorcal {
@@ -17,6 +18,30 @@ namespace taylorcal {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Keeps a second process from writing to the same temporary name; the system lets go of
+/// it when this process ends, however it ends. A file system without locks goes without.
+class Lock {
+  public:
+    Lock(const fs::path& temporary, const fs::path& path)
+        : descriptor_(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666)) {
+        const bool busy = descriptor_ >= 0 &&
+                          ::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 &&
+                          errno == EWOULDBLOCK;
+        if (busy) ::close(descriptor_);
+        require(!busy, fmt::format("{}: another process is writing it. Wait for it to "
+                                   "end, then start again.",
+                                   path.string()));
+    }
+    ~Lock() {
+        if (descriptor_ >= 0) ::close(descriptor_);
+    }
+    Lock(const Lock&) = delete;
+    Lock& operator=(const Lock&) = delete;
+
+  private:
+    int descriptor_;
+};
 
 /// Asks the system to put a file (or a folder's list of names) on the disk.
 void flush_to_disk(const fs::path& path) {
@@ -45,6 +70,7 @@ void write_atomically(const fs::path& path,
                     path.string(), std::strerror(errno)));
     fs::path temporary = path;
     temporary += ".tmp";
+    const Lock lock(temporary, path);
     std::error_code ignored;
     try {
         write(temporary);

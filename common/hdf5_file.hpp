@@ -12,13 +12,14 @@ namespace taylorcal {
 /// Row-major, as HDF5 and numpy store it.
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Writes one HDF5 file atomically: everything goes to a temporary name, and `close`
-/// renames it. Files made of the same values have the same bytes (no time stamps).
-/// A name may hold slashes ("fields/temperature_K"): groups are made as needed.
+/// Writes one HDF5 file atomically: it is put together in memory, and `close` writes it
+/// (HDF5 1.10 itself crashes when the disk is full). Files made of the same values have
+/// the same bytes (no time stamps). A name may hold slashes ("fields/temperature_K"):
+/// groups are made as needed.
 class Hdf5Writer {
   public:
     explicit Hdf5Writer(std::filesystem::path path);
-    ~Hdf5Writer();  ///< Removes the temporary file unless `close` was called.
+    ~Hdf5Writer();  ///< Writes nothing unless `close` was called.
     Hdf5Writer(const Hdf5Writer&) = delete;
     Hdf5Writer& operator=(const Hdf5Writer&) = delete;
 
@@ -40,12 +41,11 @@ class Hdf5Writer {
     /// A text of fixed length in ASCII, which some readers insist on.
     void ascii_attribute(const std::string& name, const std::string& text,
                          const std::string& on = "/");
-    /// Flushes to the disk and renames to the final name.
+    /// Writes the file. InputError with the system's reason when it cannot be written.
     void close();
 
   private:
     std::filesystem::path path_;
-    std::filesystem::path temporary_;
     std::int64_t file_ = -1;
 };
 

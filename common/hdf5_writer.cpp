@@ -3,9 +3,8 @@
 #include "common/hdf5_file.hpp"
 #include "common/hdf5_handle.hpp"
 
-#include <system_error>
-
 #include <fmt/core.h>
+#include <unistd.h>
 
 namespace taylorcal {
 
@@ -41,7 +40,7 @@ const void* not_null(const void* data) {
 void check(bool good, const std::string& name, const std::filesystem::path& path) {
     if (!good) {
         throw std::runtime_error(fmt::format(
-            "{}: \"{}\" cannot be written. Is the disk full, or the name taken?",
+            "{}: \"{}\" cannot be written. Is the memory full, or the name taken?",
             path.string(), name));
     }
 }
@@ -77,26 +76,28 @@ void write_attribute(hid_t file, const std::filesystem::path& path,
 
 }  // namespace
 
-Hdf5Writer::Hdf5Writer(std::filesystem::path path)
-    : path_(std::move(path)), temporary_(path_.string() + ".tmp") {
+Hdf5Writer::Hdf5Writer(std::filesystem::path path) : path_(std::move(path)) {
     silence_hdf5();
-    const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-    H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
-    const Hdf5Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
-    H5Pset_obj_track_times(creation, 0);
-    file_ = H5Fcreate(temporary_.c_str(), H5F_ACC_TRUNC, creation, access);
-    require(file_ >= 0,
+    const std::filesystem::path folder =
+        path_.has_parent_path() ? path_.parent_path() : ".";
+    require(std::filesystem::is_directory(folder) && ::access(folder.c_str(), W_OK) == 0,
             fmt::format(
                 "{}: cannot be written. Check that its folder exists and that you may "
                 "write to it.",
                 path_.string()));
+    const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+    H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
+    constexpr std::size_t growth = 1 << 20;
+    constexpr hbool_t on_disk = 0;
+    H5Pset_fapl_core(access, growth, on_disk);
+    const Hdf5Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+    H5Pset_obj_track_times(creation, 0);
+    file_ = H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, creation, access);
+    check(file_ >= 0, "the file", path_);
 }
 
 Hdf5Writer::~Hdf5Writer() {
-    if (file_ < 0) return;
-    H5Fclose(file_);
-    std::error_code ignored;
-    std::filesystem::remove(temporary_, ignored);
+    if (file_ >= 0) H5Fclose(file_);
 }
 
 void Hdf5Writer::matrix(const std::string& name, const RowMatrix& values) {
@@ -163,9 +164,15 @@ void Hdf5Writer::ascii_attribute(const std::string& name, const std::string& tex
 
 void Hdf5Writer::close() {
     if (file_ < 0) return;
-    check(H5Fclose(file_) >= 0, "the end of the file", path_);
+    check(H5Fflush(file_, H5F_SCOPE_GLOBAL) >= 0, "the end of the file", path_);
+    const ssize_t size = H5Fget_file_image(file_, nullptr, 0);
+    check(size > 0, "the end of the file", path_);
+    std::string image(static_cast<std::size_t>(size), '\0');
+    check(H5Fget_file_image(file_, image.data(), image.size()) == size,
+          "the end of the file", path_);
+    H5Fclose(file_);
     file_ = -1;
-    rename_atomically(temporary_, path_);
+    write_text_atomically(path_, image);
 }
 
 }  // namespace taylorcal

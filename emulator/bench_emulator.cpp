@@ -60,8 +60,7 @@ double training_samples_per_second() {
     MemberSettings settings;
     settings.widths = widths();
     settings.epochs = 50;
-    return rate(50 * rows,
-                [&] { train_member(settings, samples, samples); });
+    return rate(50 * rows, [&] { train_member(settings, samples, samples); });
 }
 
 }  // namespace

@@ -68,7 +68,7 @@ nlohmann::json batch_provenance(const nlohmann::json& configuration) {
 /// Computes the rows `missing`; each is in the journal before the next begins.
 void compute_rows(const std::vector<std::size_t>& missing, const Design& design,
                   const std::vector<impact::ImpactCase>& cases, int threads,
-                  const Simulate& simulate, Journal& journal,
+                  const Simulate& simulate, Journal& journal, RunCache& cache,
                   std::vector<FinishedRun>& runs) {
     Progress progress("runs", missing.size());
     std::exception_ptr failure;
@@ -90,6 +90,7 @@ void compute_rows(const std::vector<std::size_t>& missing, const Design& design,
             } catch (...) {
                 failure = std::current_exception();
             }
+            cache.keep(row, run);
             runs[row] = std::move(run);
         }
     }
@@ -107,7 +108,7 @@ void report_failures(const std::vector<FinishedRun>& runs) {
 
 void run_batch(const Design& design, const std::vector<impact::ImpactCase>& cases,
                const nlohmann::json& configuration, const std::filesystem::path& out,
-               int threads, const Simulate& simulate) {
+               int threads, const Simulate& simulate, RunCache cache) {
     Journal journal(out.string() + ".journal.jsonl",
                     journal_header(design, configuration));
     std::map<std::int64_t, FinishedRun> found;
@@ -115,17 +116,23 @@ void run_batch(const Design& design, const std::vector<impact::ImpactCase>& case
 
     std::vector<FinishedRun> runs(design.rows());
     std::vector<std::size_t> missing;
+    std::size_t cached = 0;
     for (std::size_t row = 0; row < design.rows(); ++row) {
         const auto known = found.find(design.run_id[row]);
-        if (known == found.end())
-            missing.push_back(row);
-        else
+        if (known != found.end()) {
             runs[row] = known->second;
+        } else if (const auto run = cache.found(row)) {
+            runs[row] = *run;
+            ++cached;
+        } else {
+            missing.push_back(row);
+        }
     }
     if (!found.empty())
         spdlog::info("{} of {} runs are in the journal already", found.size(),
                      design.rows());
-    compute_rows(missing, design, cases, threads, simulate, journal, runs);
+    if (cached > 0) spdlog::info("{} of {} runs are in the cache", cached, design.rows());
+    compute_rows(missing, design, cases, threads, simulate, journal, cache, runs);
     report_failures(runs);
     write_database(out, {design, runs, configuration, batch_provenance(configuration)});
     journal.remove();
@@ -137,6 +144,7 @@ void add_batch(CLI::App& app) {
         std::string configuration;
         std::string out;
         std::string rows = ":";
+        std::string cache;
         int threads = 0;
     };
     auto options = std::make_shared<Options>();
@@ -153,6 +161,10 @@ void add_batch(CLI::App& app) {
         ->capture_default_str();
     command->add_option("--threads", options->threads,
                         "threads (default: one a processor)");
+    command
+        ->add_option("--cache", options->cache,
+                     "folder of finished runs that studies share: looked up and added to")
+        ->envname("TAYLORCAL_RUN_CACHE");
     command->footer(
         "Sample runs:\n"
         "  solver batch design.h5 --config solver.json --out database.h5\n"
@@ -167,7 +179,7 @@ void add_batch(CLI::App& app) {
         const auto cases = make_cases(design, configuration, options->design);
         run_batch(design, cases, configuration.document, options->out,
                   options->threads > 0 ? options->threads : omp_get_max_threads(),
-                  impact::simulate);
+                  impact::simulate, RunCache(options->cache, design, configuration));
     });
 }
 

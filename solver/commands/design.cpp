@@ -158,10 +158,8 @@ std::vector<impact::ImpactCase> make_cases(const Design& design,
                     length_to_diameter = value;
                 else if (name == "initial_temperature_K")
                     shot.initial_temperature_K = value;
-                else if (is_effect(name))
-                    effects::set_amplitude(of_run.effects, name, value);
                 else
-                    material::set_parameter(of_run.material, name, value);
+                    set_input(of_run, name, value);
             }
         } catch (const InputError& error) {
             throw InputError(where + ": " + error.what());
@@ -170,6 +168,16 @@ std::vector<impact::ImpactCase> make_cases(const Design& design,
         cases.push_back(make_case(shot, of_run, where));
     }
     return cases;
+}
+
+bool set_input(Configuration& of_run, const std::string& name, double value) {
+    if (std::find(shot_inputs.begin(), shot_inputs.end(), name) != shot_inputs.end())
+        return false;
+    if (is_effect(name))
+        effects::set_amplitude(of_run.effects, name, value);
+    else
+        material::set_parameter(of_run.material, name, value);
+    return true;
 }
 
 void write_design_tables(Hdf5Writer& file, const Design& design) {

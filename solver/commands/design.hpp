@@ -42,6 +42,10 @@ std::vector<impact::ImpactCase> make_cases(const Design& design,
                                            const Configuration& configuration,
                                            const std::filesystem::path& path);
 
+/// Sets the constant of the material or the amplitude that an input stands for; false
+/// when it is an input of the shot. InputError for a value out of range.
+bool set_input(Configuration& of_run, const std::string& name, double value);
+
 /// Writes the tables that `read_design_tables` reads.
 void write_design_tables(Hdf5Writer& file, const Design& design);
 

@@ -14,10 +14,13 @@ from input_errors import InputError
 from measurements import check_against_study, read_measurements
 from outlines.table import check_outlines
 from revisions import HOME, homes_of, previous_home, split_home
+from run_cache import use_run_cache
 from study import EXPERIMENTS, STAGE_SETTINGS, at_revision, better_design_settings
 from study import chunk_count, design_settings, load_study, new_runs, uses_outlines
 
 min_version("7.21")
+
+use_run_cache(config["run_cache"])
 
 
 # {study} is a home, so that every rule serves the base and each revision; {name} is the

@@ -47,7 +47,7 @@ def write_report(inputs: dict[str, Path], benchmarks: Path, page: Path, plots: P
         settings=results.settings,
         findings=findings,
         stage_words=quality_charts.STAGE_WORDS,
-        provenance=provenance_tables(results),
+        provenance=provenance_tables(results, inputs),
     )
 
 

@@ -34,6 +34,19 @@ TEST_CASE("the final name does not exist before all is written", "[atomic]") {
     CHECK(taylorcal::read_text(path) == "whole");
 }
 
+TEST_CASE("two writers of one name do not mix", "[atomic]") {
+    const taylorcal::testing::TemporaryFolder folder;
+    const fs::path path = folder / "out.txt";
+    taylorcal::write_atomically(path, [&](const fs::path& temporary) {
+        CHECK_THROWS_WITH(taylorcal::write_text_atomically(path, "other"),
+                          Catch::Contains("another process is writing it"));
+        std::ofstream(temporary) << "whole";
+    });
+    CHECK(taylorcal::read_text(path) == "whole");
+    taylorcal::write_text_atomically(path, "next");
+    CHECK(taylorcal::read_text(path) == "next");
+}
+
 TEST_CASE("a missing folder or file is the user's to mend", "[atomic]") {
     const taylorcal::testing::TemporaryFolder folder;
     CHECK_THROWS_AS(taylorcal::write_text_atomically(folder / "no/out.txt", "x"),

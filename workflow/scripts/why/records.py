@@ -10,13 +10,20 @@ from code_digest import NOTE, code_note
 METADATA = Path(".snakemake") / "metadata"
 
 
-def recorded_parameters(output: str) -> list | None:
-    """The rule's parameters that Snakemake noted when it made a file; None if it did not."""
+def record_of(output: str) -> dict | None:
+    """All that Snakemake noted when it made a file; None if it did not."""
     record = METADATA / base64.urlsafe_b64encode(output.encode()).decode()
     try:
-        texts = json.loads(record.read_text(encoding="utf-8"))["params"]
-        return [ast.literal_eval(text) for text in texts]
-    except (OSError, ValueError, SyntaxError):
+        return json.loads(record.read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return None
+
+
+def recorded_parameters(output: str) -> list | None:
+    """The rule's parameters that Snakemake noted when it made a file; None if it did not."""
+    try:
+        return [ast.literal_eval(text) for text in record_of(output)["params"]]
+    except (TypeError, KeyError, ValueError, SyntaxError):
         return None
 
 

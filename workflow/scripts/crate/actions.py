@@ -1,0 +1,91 @@
+"""What made each result, as Snakemake noted it and as the result's own provenance says."""
+
+import csv
+import json
+from dataclasses import dataclass
+from datetime import datetime, timezone
+from pathlib import Path
+
+import h5py
+
+from code_digest import NOTE
+from json_file import read_json
+from why.records import record_of
+
+
+@dataclass
+class Action:
+    """A job of the workflow, and all that it wrote."""
+
+    rule: str
+    command: str
+    code: dict[str, str]  # digest of the sources, by program or script
+    inputs: list[str]
+    outputs: list[str]
+    start: str
+    end: str
+    wall_s: float | None
+    cpu_s: float | None
+
+
+def actions_of(files: list[str]) -> list[Action]:
+    """The jobs that made the files, in the order of their ends; files without a note are left."""
+    found: dict[tuple, Action] = {}
+    for file in files:
+        record = record_of(file)
+        if record is None:
+            continue
+        key = (record["rule"], record["starttime"], *record["log"])
+        if key in found:
+            found[key].outputs.append(file)
+        else:
+            found[key] = _action(file, record)
+    return sorted(found.values(), key=lambda action: action.end)
+
+
+def _action(file: str, record: dict) -> Action:
+    notes = [NOTE.fullmatch(text.strip("'")) for text in record["params"]]
+    wall_s, cpu_s = _benchmark(record["log"])
+    return Action(
+        rule=record["rule"],
+        command=record["shellcmd"] or f"workflow/scripts, rule {record['rule']}",
+        code={note[1]: note[2] for note in notes if note},
+        inputs=[name for name in record["input"] if not name.startswith("build/")],
+        outputs=[file],
+        start=_time(record["starttime"]),
+        end=_time(record["endtime"]),
+        wall_s=wall_s,
+        cpu_s=cpu_s,
+    )
+
+
+def _time(seconds: float) -> str:
+    return datetime.fromtimestamp(seconds, timezone.utc).isoformat(timespec="seconds")
+
+
+def _benchmark(logs: list[str]) -> tuple[float | None, float | None]:
+    """Wall and CPU seconds; the benchmark is named as the log."""
+    for log in map(Path, logs):
+        path = log.parent.parent / "benchmarks" / f"{log.stem}.tsv"
+        if path.exists():
+            with path.open(newline="") as file:
+                row = list(csv.DictReader(file, delimiter="\t"))[-1]
+            return _number(row["s"]), _number(row["cpu_time"])
+    return None, None
+
+
+def _number(text: str) -> float | None:
+    """Snakemake writes NA or - for jobs too short to be sampled."""
+    return None if text in ("NA", "-", "") else float(text)
+
+
+def provenance_in(path: Path) -> dict:
+    """Program, version, seed, configuration and machine that a result itself names."""
+    if path.suffix == ".h5":
+        with h5py.File(path) as file:
+            text = file.attrs.get("provenance", "{}")
+        return json.loads(text if isinstance(text, str) else text.decode())
+    if path.suffix == ".json":
+        content = read_json(path)
+        return content.get("provenance", {}) if isinstance(content, dict) else {}
+    return {}

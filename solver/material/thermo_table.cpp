@@ -118,7 +118,7 @@ struct Shares {
 /// d(value)/d(node) of a row of nodes: differences of fourth order, of second at the
 /// ends.
 template <class Row>
-Row slope(const std::vector<Row>& nodes, std::size_t i) {
+Row node_slope(const std::vector<Row>& nodes, std::size_t i) {
     Row result{};
     const std::size_t last = nodes.size() - 1;
     for (std::size_t k = 0; k < result.size(); ++k) {
@@ -159,7 +159,7 @@ ThermoTable::ThermoTable(const emulator::Emulator& network, double coldest,
     highest_ = density.upper;
     spacing_ = (highest_ - lowest_) / intervals;
     for (std::size_t i = 0; i < intervals; ++i) {
-        const Lanes begin = slope(nodes, i), end = slope(nodes, i + 1);
+        const Lanes begin = node_slope(nodes, i), end = node_slope(nodes, i + 1);
         Piece piece;
         for (std::size_t k = 0; k < lanes; ++k) {
             const double rise = nodes[i + 1][k] - nodes[i][k];

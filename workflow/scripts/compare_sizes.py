@@ -12,14 +12,14 @@ SIZES = (
     "rear_length_mm",
     "transition_diameter_mm",
 )
-NETWORK = "copper_md_"
+NETWORK = "_copper_md"
 
 
 def pairs(paths) -> list[tuple[dict, dict]]:
     """Runs by the analytic copper and by the network of the same shot."""
     runs = {Path(path).stem: read_json(path) for path in paths}
-    shots = [name.removeprefix(NETWORK) for name in runs if name.startswith(NETWORK)]
-    return [(runs[f"copper_{shot}"], runs[f"{NETWORK}{shot}"]) for shot in shots]
+    shots = [name.removesuffix(NETWORK) for name in runs if name.endswith(NETWORK)]
+    return [(runs[f"{shot}_copper"], runs[f"{shot}{NETWORK}"]) for shot in shots]
 
 
 def table(paths) -> str:

@@ -131,3 +131,19 @@ TEST_CASE("what cannot be learnt is refused with the place", "[training]") {
     CHECK_THROWS_WITH(refused("outputs", {{{"name", "length"}, {"divide_by", {"mass"}}}}),
                       Contains("outputs[0].divide_by names \"mass\""));
 }
+
+TEST_CASE("the decay of weights is a setting", "[training]") {
+    nlohmann::json settings = testing::sample_config();
+    settings["epochs"] = 20;
+    settings["members"] = 1;
+    const auto error = [&] {
+        return train_sample(100, settings, 1).members.front().validation_rms;
+    };
+    const double by_default = error();
+    settings["weight_decay"] = 0.1;
+    CHECK(error() == by_default);
+    settings["weight_decay"] = 0;
+    CHECK(error() != by_default);
+    settings["weight_decay"] = -1;
+    CHECK_THROWS_WITH(error(), Contains("weight_decay"));
+}

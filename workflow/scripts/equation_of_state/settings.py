@@ -30,3 +30,8 @@ def isotherm_variables(settings: dict, temperature: int) -> str:
         "last": settings["points"] - 1,
     }
     return " ".join(f"-var {name} {value}" for name, value in values.items())
+
+
+def isotherm_files(settings: dict, kind: str) -> list[str]:
+    home = "results/equation_of_state/isotherms"
+    return [f"{home}/{temperature}.{kind}.txt" for temperature in settings["temperatures_K"]]

@@ -13,7 +13,7 @@ from statistics import NormalDist
 
 from input_errors import InputError
 from make_design import design
-from study import design_settings
+from study import better_design_settings, better_settings, design_settings
 
 MEASURED = Path(__file__).resolve().parents[2] / "run_costs.csv"
 REFERENCE_VELOCITY = 100  # [m/s]
@@ -66,25 +66,28 @@ def run_costs(path: Path = MEASURED) -> dict[tuple[str, str, str], RunCost]:
 
 def study_cost(study: dict) -> StudyCost:
     """Of the base of a study, whatever of it was computed before."""
-    columns = design(design_settings(study))
-    velocity = columns["names"].index("velocity_m_s")
+    parts = [(design(design_settings(study)), study["solver"])]
+    if study["database"]["better"]:
+        parts.append((design(better_design_settings(study)), better_settings(study)))
     known = run_costs()
-    solver = study["solver"]
-    seconds, used = [], set()
-    count = len(columns["shape"])
-    for run, shape in enumerate(columns["shape"]):
-        kind = (solver["geometry"], solver["fidelity"], shape)
-        if kind not in known:
-            raise InputError(f"{MEASURED}: has no cost of {', '.join(kind)}. Add a line.")
-        used.add(kind)
-        # Shares of the golden ratio: evenly spread, and unrelated to the order of the runs.
-        share = (run * 0.6180339887 + 0.5 / count) % 1
-        seconds.append(known[kind].seconds(columns["inputs"][run, velocity], share))
+    seconds, shapes, used = [], [], set()
+    for columns, solver in parts:
+        velocity = columns["names"].index("velocity_m_s")
+        count = len(columns["shape"])
+        shapes += columns["shape"]
+        for run, shape in enumerate(columns["shape"]):
+            kind = (solver["geometry"], solver["fidelity"], shape)
+            if kind not in known:
+                raise InputError(f"{MEASURED}: has no cost of {', '.join(kind)}. Add a line.")
+            used.add(kind)
+            # Shares of the golden ratio: evenly spread, and unrelated to the order of the runs.
+            share = (run * 0.6180339887 + 0.5 / count) % 1
+            seconds.append(known[kind].seconds(columns["inputs"][run, velocity], share))
     network, calibration = study["emulator"], study["calibration"]
-    one_member = count * network["epochs"] / TRAINED_ROWS_PER_CPU_S
+    one_member = len(seconds) * network["epochs"] / TRAINED_ROWS_PER_CPU_S
     return StudyCost(
         runs_s=seconds,
-        shapes=columns["shape"],
+        shapes=shapes,
         train_s=[one_member] * network["members"],
         sample_s=calibration["draws"] / SAMPLED_DRAWS_PER_CPU_S,
         measured_runs=min(known[kind].runs for kind in used),

@@ -9,9 +9,13 @@ FEW_RUNS = 20
 
 def cost_words(name: str, study: dict, cost: StudyCost) -> str:
     solver, longest = study["solver"], max(cost.runs_s)
+    better = study["database"]["better"]
+    finer = (
+        f", {better['runs']} of them {better['geometry']}, {better['fidelity']}" if better else ""
+    )
     lines = [
         f"{name}: about {_core_hours(cost.core_hours)} before anything is there.",
-        f"  {len(cost.runs_s)} runs, {solver['geometry']}, {solver['fidelity']}: "
+        f"  {len(cost.runs_s)} runs, {solver['geometry']}, {solver['fidelity']}{finer}: "
         f"{_core_hours(sum(cost.runs_s) / 3600)}, the longest {duration(longest)}",
     ]
     for shape in dict.fromkeys(cost.shapes):

@@ -15,6 +15,9 @@ namespace taylorcal::material {
 namespace {
 
 constexpr std::size_t intervals = 96;
+// A step asks for its new density with its old energy before it knows the new one: a
+// strong shock then looks colder than 0 K for a moment.
+constexpr double coldest_shown = -500;  // [K]
 
 /// The network, asked by its names of inputs and outputs.
 class ThermoNetwork {
@@ -231,13 +234,13 @@ ThermoState ThermoTable::outside(const Lanes& lane, double share, double density
         return polynomial(&lane[first], terms, edge) +
                polynomial_slope(&lane[first], terms, edge) * (share - edge);
     };
-    const ThermoState state = {extended(pressure), extended(temperature),
-                               extended(modulus)};
-    if (!(state.temperature >= 0 && state.temperature <= 2 * hottest_))
+    ThermoState state = {extended(pressure), extended(temperature), extended(modulus)};
+    if (!(state.temperature >= coldest_shown && state.temperature <= 2 * hottest_))
         throw NumericalError(
             fmt::format("a density of {:.6g} kg/m3 with an energy of {:.6g} J/kg is at "
                         "{:.4g} K (the equation of state knows 0 to {:g} K)",
                         density, energy, state.temperature, 2 * hottest_));
+    state.temperature = std::max(state.temperature, 0.0);
     return state;
 }
 

@@ -40,6 +40,7 @@ TRUTH = {
     "immobilization_velocity": 0.4,
 }
 SHARE = 0.95  # of the posterior, inside the line
+ENOUGH = 1000  # effective draws for a map
 PAPER = {"rms": "0.4", "largest": "4.6", "rate": "5e4", "hours": "7"}
 
 
@@ -54,11 +55,15 @@ def level_that_holds(density, share):
     return falling[min(np.searchsorted(mass, share), len(falling) - 1)]
 
 
-def draw_maps(posterior, path):
+def draw_maps(posterior, adapted, path):
+    """`adapted`: a posterior of adapted draws, whose map of all rows is shown where plain draws
+    are too few for one."""
+    plain = posterior.attrs["effective_sample_size"] >= ENOUGH
     figure, axes = plt.subplots(len(PAIRS), len(PARTS), figsize=(22, 8.2))
     for row, (x, y) in zip(axes, PAIRS):
         for axis, (part, words) in zip(row, PARTS.items()):
-            group = posterior[f"{group_of(part)}maps_2d/{x}__{y}"]
+            source = adapted if part == "" and not plain else posterior
+            group = source[f"{group_of(part)}maps_2d/{x}__{y}"]
             edges = [group["x_edges"][:], group["y_edges"][:]]
             density = group["density"][:].T
             axis.pcolormesh(*edges, density, cmap="Blues", vmin=0)
@@ -74,8 +79,10 @@ def draw_maps(posterior, path):
             if row is axes[0]:
                 axis.set_title(words, fontsize=10)
             axis.set_xlabel(WORDS[x], fontsize=8)
+    how = "plain draws" if plain else "adapted draws, plain ones are too few"
     figure.suptitle(
-        "Posterior of the synthetic table by parts; line: 95 % of it, red: what made the table",
+        "Posterior of the synthetic table by parts; line: 95 % of it, red: what made the table. "
+        f"All rows: {how}; parts: adapted draws",
         fontsize=11,
     )
     figure.tight_layout()
@@ -160,8 +167,8 @@ def report(emulator, posterior, log):
 if __name__ == "__main__":
     inputs, outputs = snakemake.input, snakemake.output  # noqa: F821
     Path(outputs.text).write_text(report(inputs.emulator, inputs.posterior, inputs.log) + "\n")
-    with h5py.File(inputs.posterior) as file:
-        draw_maps(file, outputs.maps)
+    with h5py.File(inputs.posterior) as file, h5py.File(inputs.adapted) as adapted:
+        draw_maps(file, adapted, outputs.maps)
         table = convergence(file)
     table.to_csv(outputs.table, index=False)
     draw_convergence(table, outputs.convergence)

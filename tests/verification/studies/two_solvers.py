@@ -117,7 +117,7 @@ if __name__ == "__main__":
         snakemake.input.database,  # noqa: F821
         snakemake.input.better,  # noqa: F821
         snakemake.input.train,  # noqa: F821
-        Path(snakemake.params.folder),  # noqa: F821
+        Path(snakemake.output.table).with_suffix(""),  # noqa: F821
     )
     found.round(4).to_csv(snakemake.output.table, index=False)  # noqa: F821
     draw(found, snakemake.output.figure)  # noqa: F821

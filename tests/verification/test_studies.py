@@ -6,6 +6,8 @@ import sys
 from pathlib import Path
 from types import SimpleNamespace
 
+import h5py
+import numpy as np
 import pandas as pd
 import pytest
 
@@ -13,7 +15,10 @@ ROOT = Path(__file__).parents[2]
 sys.path.insert(0, str(ROOT / "tests" / "verification" / "studies"))
 
 import sample  # noqa: E402
+import two_solvers  # noqa: E402
 from impact_runs import SHAPES, arguments_of, run_name  # noqa: E402
+from paper_calibration import level_that_holds, rate_of  # noqa: E402
+from paper_settings import plain_settings  # noqa: E402
 from sample_runs import command_of, sample_design  # noqa: E402
 
 
@@ -101,3 +106,38 @@ def test_a_lost_run_comes_with_the_command_that_computes_it_again(solver):
     assert question["shape"] == "reduced_head_4mm"
     assert (question["seed"], question["velocity_m_s"]) == (42, 101.25)
     assert question["configuration"]["material"]["hardening_coefficient"] == 2.8
+
+
+def test_plain_draws_are_as_many_as_asked_for():
+    asked = plain_settings({"seed": 3, "draws": 60000}, float("1e7"))
+    assert asked == {"seed": 3, "draws": 10_000_000, "draws_from": "prior"}
+    with pytest.raises(ValueError, match="at least 1e5"):
+        plain_settings({}, 1e3)
+
+
+def test_the_line_of_a_map_holds_the_share_of_it():
+    x = np.linspace(-5, 5, 201)
+    density = np.exp(-(x[:, None] ** 2 + x[None, :] ** 2) / 2)
+    level = level_that_holds(density, 0.95)
+    assert level == pytest.approx(0.05, rel=0.03)  # of a normal map in two dimensions
+
+
+def test_the_rate_is_read_from_what_the_program_says():
+    told = "info: 1e+08 plain draws in 14.2 s, 3.53e+06 a second and thread, 1.20 of 42 rows each"
+    assert rate_of(told) == (1e8, 3.53e6)
+
+
+def test_rows_of_a_database_keep_their_names_and_cost(tmp_path):
+    path = tmp_path / "all.h5"
+    with h5py.File(path, "w") as file:
+        file.attrs["schema"] = "taylorcal/database/1"
+        file["run_id"] = [5, 6, 7]
+        file["inputs"] = [[1.0], [2.0], [3.0]]
+        file["inputs"].attrs["names"] = ["velocity_m_s"]
+    (tmp_path / "all.h5.cost.csv").write_text("run_id,cpu_s\n5,1.5\n6,2.0\n7,4.0\n")
+    two_solvers.write_rows(path, np.array([0, 2]), tmp_path / "part.h5")
+    with h5py.File(tmp_path / "part.h5") as file:
+        assert list(file["run_id"][:]) == [5, 7]
+        assert list(file["inputs"].attrs["names"]) == ["velocity_m_s"]
+        assert file.attrs["schema"] == "taylorcal/database/1"
+    assert two_solvers.cpu_seconds(path, np.array([0, 2])) == 5.5

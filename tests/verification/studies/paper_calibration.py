@@ -13,6 +13,7 @@ import pandas as pd
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
+from matplotlib.ticker import NullFormatter  # noqa: E402
 
 PAIRS = [
     ("rho_immobile_initial", "hardening_coefficient"),
@@ -73,10 +74,11 @@ def draw_maps(posterior, adapted, path):
             axis.plot(TRUTH[x], TRUTH[y], "r+", markersize=9)
             if x == "rho_immobile_initial":
                 axis.set_xscale("log")
+                axis.xaxis.set_minor_formatter(NullFormatter())
             axis.tick_params(labelsize=7)
             if part == "":
                 axis.set_ylabel(WORDS[y])
-            if row is axes[0]:
+            if (x, y) == PAIRS[0]:
                 axis.set_title(words, fontsize=10)
             axis.set_xlabel(WORDS[x], fontsize=8)
     how = "plain draws" if plain else "adapted draws, plain ones are too few"

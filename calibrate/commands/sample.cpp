@@ -4,9 +4,9 @@
 #include "calibrate/posterior/summary.hpp"
 #include "calibrate/prior_pass/sample_prior.hpp"
 #include "calibrate/sampling/adapt.hpp"
-#include "common/atomic_file.hpp"
+#include "common/program_code.hpp"
 #include "common/progress.hpp"
-#include "common/provenance.hpp"
+#include "common/sha256.hpp"
 #include "common/simd.hpp"
 
 #include <algorithm>
@@ -63,10 +63,10 @@ void warn_of_doubts(const Posterior& posterior, const SpreadLevels& levels) {
 
 /// Tells every input, so that what an interrupted run saved is taken up by the same only.
 std::string digest_of(const InputPaths& paths) {
-    std::string all = version() + simd::name(simd::variant());
+    std::string all = program_code() + simd::name(simd::variant());
     for (const auto& path : {paths.settings, paths.measurements, paths.emulator})
-        all += read_text(path);
-    return digest(all);
+        all += ' ' + sha256_of_file(path);
+    return sha256(all);
 }
 
 /// Told of draws as they are done; the bar is made with the first ones, since the search

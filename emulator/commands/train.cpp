@@ -37,11 +37,11 @@ int train(const TrainArguments& arguments) {
             arguments.better.string());
     const Checkpoints checkpoints(arguments.out.string() + ".checkpoint",
                                   training_key(arguments));
-    const Model model = arguments.from.empty()
-                            ? train_emulator(config, data, arguments.threads, checkpoints)
-                            : train_further(Emulator::from_file(arguments.from).model(),
-                                            arguments.from.string(), config, data,
-                                            arguments.threads, checkpoints);
+    const Model model =
+        arguments.from.empty()
+            ? train_emulator(config, data, arguments.threads, checkpoints)
+            : train_further(read_model(arguments.from), arguments.from.string(), config,
+                            data, arguments.threads, checkpoints);
     write_text_atomically(arguments.out, to_json(model).dump() + "\n");
     checkpoints.remove(model.members.size());
     spdlog::info(

@@ -45,17 +45,25 @@ std::size_t used_inputs(const Model& model) {
         std::ranges::count_if(model.inputs, &InputInfo::used));
 }
 
+/// Without the column of the cheaper solver, whose input is 0 in every answer.
+Model answering(Model model) {
+    for (Member& member : model.members) {
+        Eigen::MatrixXf& weights = member.layers.front().weights;
+        if (model.corrects_cheaper_runs)
+            weights = Eigen::MatrixXf(weights.leftCols(weights.cols() - 1));
+    }
+    model.corrects_cheaper_runs = false;
+    return model;
+}
+
 }  // namespace
 
 Emulator Emulator::from_file(const std::filesystem::path& path) {
-    return Emulator(model_from_json(JsonReader::from_file(path).json(), path.string()));
+    return Emulator(read_model(path));
 }
 
-Emulator::Emulator(Model model) : model_(std::move(model)) {
-    for (Member member : model_.members) {
-        Eigen::MatrixXf& weights = member.layers.front().weights;
-        if (model_.corrects_cheaper_runs)
-            weights = Eigen::MatrixXf(weights.leftCols(weights.cols() - 1));
+Emulator::Emulator(Model model) : model_(answering(std::move(model))) {
+    for (const Member& member : model_.members) {
         forward_.emplace_back(member, used_inputs(model_), model_.outputs);
     }
     for (const OutputInfo& output : model_.outputs) {

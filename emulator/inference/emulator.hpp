@@ -24,6 +24,7 @@ class Emulator {
     const Category& category() const { return model_.category; }
     std::size_t members() const { return model_.members.size(); }
     std::size_t best() const { return model_.best; }
+    /// What answers: of a file that corrects cheaper runs without their column.
     const Model& model() const { return model_; }
 
     /// Positions by name; InputError with the nearest name when unknown.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -79,5 +80,7 @@ struct Model {
 nlohmann::json to_json(const Model& model);
 /// InputError naming `where` when the file is not a whole emulator of this schema.
 Model model_from_json(const nlohmann::json& file, const std::string& where);
+/// The same from a file.
+Model read_model(const std::filesystem::path& path);
 
 }  // namespace taylorcal::emulator

@@ -226,4 +226,8 @@ Model model_from_json(const json& file, const std::string& where) {
     return model;
 }
 
+Model read_model(const std::filesystem::path& path) {
+    return model_from_json(JsonReader::from_file(path).json(), path.string());
+}
+
 }  // namespace taylorcal::emulator

@@ -1,6 +1,5 @@
 """Writes the table of states, the database of them and where they come from."""
 
-import hashlib
 import platform
 import subprocess
 from datetime import date
@@ -19,6 +18,7 @@ from equation_of_state.table import (
     write_states,
 )
 from equation_of_state.units import AtomicUnits
+from file_digest import sha256_of
 from json_file import write_json
 from stage_log import logged_to
 
@@ -67,8 +67,8 @@ def provenance(settings: dict, potential: Path, states: States, isotherms, surfa
         "simulator": lammps_version(),
         "machine": f"{processor()}, {platform.system()} {platform.machine()}, 1 core",
         "date": date.today().isoformat(),
-        "potential_sha256": hashlib.sha256(shipped.read_bytes()).hexdigest(),
-        "embedded_atoms_sha256": hashlib.sha256(potential.read_bytes()).hexdigest(),
+        "potential_sha256": sha256_of(shipped),
+        "embedded_atoms_sha256": sha256_of(potential),
         "zero_of_energy": "300 K and zero pressure on the smooth surface",
         "zero_of_energy_eV": float(surface.energy(resting, REFERENCE_TEMPERATURE)),
         "density_of_molecular_dynamics_kg_m3": states.reference_density,

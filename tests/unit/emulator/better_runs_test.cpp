@@ -84,6 +84,9 @@ TEST_CASE("few better runs correct many cheaper ones", "[better]") {
             {{"speed", 0.3F}, {"density", 1e12F}, {"temperature", 294}, {"size", 7}},
             "curved");
         CHECK(answer(0, 0) == Approx(by_hand[0]).epsilon(1e-5));
+        // Whoever takes the layers as they are must not meet the cheaper solver's column.
+        CHECK(read.model().members.front().layers.front().weights.cols() == 3 + 2);
+        CHECK_FALSE(read.model().corrects_cheaper_runs);
     }
     SECTION("training goes on from it, with what it knows of both solvers") {
         TrainConfig further = config;

@@ -17,7 +17,7 @@ NAME = "ro-crate-metadata.json"
 CONTEXT = "https://w3id.org/ro/crate/1.1/context"
 PROFILE = "https://w3id.org/ro/crate/1.1"
 STUDY_FOLDER = "study"  # copies of study.yaml, the table and outlines, inside the crate
-LEFT_OUT = {"logs", "chunks", "signature_chunks"}
+LEFT_OUT = {"logs", "chunks", "better_chunks", "signature_chunks"}
 MEDIA_TYPES = {
     ".h5": "application/x-hdf5",
     ".yaml": "application/yaml",
@@ -39,7 +39,7 @@ def write_manifest(study: dict, experiments: Path, results: Path) -> Path:
 
 def _belongs(path: Path, results: Path) -> bool:
     inside = path.relative_to(results)
-    waste = path.name.endswith((".tmp", ".jsonl")) or ".checkpoint." in path.name
+    waste = path.name.endswith((".tmp", ".jsonl")) or ".checkpoint" in path.name
     return path.is_file() and path.name != NAME and not waste and not LEFT_OUT & set(inside.parts)
 
 

@@ -20,6 +20,7 @@ EPOCHS = 1000
 MEMBERS = 2
 CHEAPER = [0, 600, 2400]  # runs learnt from
 BETTER = [0, 100, 200, 400]
+HARDENING = {"hardening_coefficient": 1, "immobilization_velocity": 0.2}  # above: no discs
 LABELS = {0: "better runs alone", 600: "+ 600 coarse runs", 2400: "+ 2400 coarse runs"}
 
 
@@ -59,6 +60,15 @@ def error_of(emulator, held_out):
     }
 
 
+def hardening_rows(path):
+    """Runs whose metal hardens: softer metal becomes a disc, which no network follows well."""
+    with h5py.File(path) as file:
+        names = [str(name) for name in file["inputs"].attrs["names"]]
+        inputs = file["inputs"][:]
+    above = [inputs[:, names.index(name)] > least for name, least in HARDENING.items()]
+    return np.flatnonzero(np.all(above, axis=0))
+
+
 def compare(database, better, train, folder):
     """One row for each number of cheaper and better runs that a network learnt from."""
     folder.mkdir(parents=True, exist_ok=True)
@@ -68,6 +78,8 @@ def compare(database, better, train, folder):
         better_count = len(file["run_id"])
     held_out = folder / "held_out.h5"
     write_rows(better, np.arange(better_count - HELD_OUT, better_count), held_out)
+    hardening = folder / "held_out_hardening.h5"
+    write_rows(held_out, hardening_rows(held_out), hardening)
     settings = {**json.loads(Path(train).read_text()), "epochs": EPOCHS, "members": MEMBERS}
     settings["validation_fraction"] = 0.15
     (folder / "train.json").write_text(json.dumps(settings))
@@ -88,7 +100,14 @@ def compare(database, better, train, folder):
             command += ["--better", files[1]] if len(files) > 1 else []
             subprocess.run([*command, "--config", folder / "train.json"], check=True)
             counts = {"cheaper_runs": cheap, "better_runs": good, "core_hours": seconds / 3600}
-            rows.append({**counts, **error_of(emulator, held_out)})
+            softer_left_out = error_of(emulator, hardening)
+            rows.append(
+                {
+                    **counts,
+                    **error_of(emulator, held_out),
+                    **{f"hardening_{name}": value for name, value in softer_left_out.items()},
+                }
+            )
     return pd.DataFrame(rows)
 
 

@@ -82,9 +82,9 @@ void name_pairs(Verdict& verdict, const std::vector<const PairRecord*>& pairs) {
     verdict.kind = pairs.size() == 1 ? VerdictKind::effect : VerdictKind::one_of;
 }
 
-/// What the evidence does not tell from each other, or from nothing at all, is not named.
-void name_set(Verdict& verdict, double best) {
-    if (best < indistinguishable || verdict.effects.size() > most_that_say_something)
+/// Too many that the evidence does not tell from each other are not named.
+void name_set(Verdict& verdict) {
+    if (verdict.effects.size() > most_that_say_something)
         verdict.kind = VerdictKind::not_distinguishable;
     else
         verdict.kind =
@@ -120,10 +120,13 @@ void judge(const DiagnosisProblem& problem, const NormalTable& table,
     } else if (none || mode.unlisted_gain > best + indistinguishable) {
         verdict.kind = VerdictKind::outside_the_list;
         verdict.effects.clear();
-    } else if (needs_two) {
-        name_pairs(verdict, pairs);
     } else {
-        name_set(verdict, best);
+        if (needs_two)
+            name_pairs(verdict, pairs);
+        else
+            name_set(verdict);
+        // What the evidence does not tell from nothing at all is not named.
+        if (best < indistinguishable) verdict.kind = VerdictKind::not_distinguishable;
     }
 }
 

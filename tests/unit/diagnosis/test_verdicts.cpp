@@ -1,3 +1,4 @@
+#include "calibrate/diagnosis/competition.hpp"
 #include "tests/unit/diagnosis/linear_table.hpp"
 
 #include <algorithm>
@@ -147,6 +148,31 @@ TEST_CASE("two effects at once are found as a pair", "[verdict]") {
     INFO(right << " right, " << partly << " with both, of " << tables);
     CHECK(partly >= 0.9 * tables);
     CHECK(right >= 0.7 * tables);
+}
+
+TEST_CASE("nothing is named that the evidence does not tell from nothing", "[verdict]") {
+    const toys::LinearTable table;
+    int named = 0;
+    for (std::uint64_t i = 0; i < 300; ++i) {
+        // Two weak effects: some of these tables are flagged, few have much evidence.
+        const Eigen::VectorXd shift =
+            table.amplitude_of(table.effects.col(0), 2.5) * table.effects.col(0) +
+            table.amplitude_of(table.effects.col(5), 2.5) * table.effects.col(5);
+        const ModeDiagnosis found = table.diagnose(table.draw(60000 + i, shift));
+        const VerdictKind kind = found.verdict.kind;
+        if (!found.verdict.is_flagged ||
+            (kind != VerdictKind::effect && kind != VerdictKind::one_of))
+            continue;
+        ++named;
+        double best = 0;
+        for (const std::size_t k : found.verdict.effects)
+            best = std::max(best, found.candidates[k].evidence->log_gain);
+        for (const PairRecord& pair : found.pairs)
+            if (pair.explains) best = std::max(best, pair.log_gain);
+        CHECK(best >= indistinguishable);
+    }
+    INFO(named << " named");
+    CHECK(named >= 5);
 }
 
 TEST_CASE("the verdict over modes is the most cautious one", "[modes]") {

@@ -37,7 +37,7 @@ Eigen::MatrixXd fixed_covariance(const Settings& settings, const Predictor& pred
     const double sd_v = datum.shot.velocity_sd_m_s.value_or(
         settings.velocity_sd_relative * datum.shot.velocity_m_s);
     const Eigen::VectorXd slope = velocity_slope(predictor, datum, parameters);
-    const Eigen::MatrixXd network = predictor.error_covariance(datum.shot);
+    const Eigen::MatrixXd network = predictor.error_covariance(datum.shot, parameters);
     Eigen::MatrixXd covariance = slope * slope.transpose() * (sd_v * sd_v);
     covariance.diagonal() += datum.sd_mm.cwiseAbs2();
     for (Eigen::Index i = 0; i < n; ++i)

@@ -19,10 +19,9 @@ constexpr Eigen::Index not_a_parameter = -1;
 bool is_covered(const emulator::InputInfo& input, double value) {
     if (!input.used || input.lower == input.upper)
         return std::abs(value - input.lower) <= 0.05 * std::abs(input.lower);
-    const bool log = input.transform == emulator::Transform::log10;
-    const double lower = log ? std::log10(input.lower) : input.lower;
-    const double upper = log ? std::log10(input.upper) : input.upper;
-    const double place = log ? std::log10(value) : value;
+    const double lower = on_range_scale(input, input.lower);
+    const double upper = on_range_scale(input, input.upper);
+    const double place = on_range_scale(input, value);
     const double room = 0.02 * (upper - lower);
     return place >= lower - room && place <= upper + room;
 }
@@ -109,10 +108,14 @@ RowMatrix NetworkPredictor::predict(const Shot& shot, const RowMatrix& parameter
     return predicted;
 }
 
-Eigen::MatrixXd NetworkPredictor::error_covariance(const Shot& shot) const {
-    const emulator::Covariance& source = emulator_.covariance(shot.shape);
+Eigen::MatrixXd NetworkPredictor::error_covariance(
+    const Shot& shot, const Eigen::VectorXd& parameters) const {
     const auto n = static_cast<Eigen::Index>(sizes_.size());
-    const Eigen::VectorXd point = shot_point(shot);
+    Eigen::VectorXd point = shot_point(shot);
+    for (std::size_t i = 0; i < parameter_of_input_.size(); ++i)
+        if (parameter_of_input_[i] != not_a_parameter)
+            point(static_cast<Eigen::Index>(i)) = parameters(parameter_of_input_[i]);
+    const emulator::Covariance source = emulator_.covariance_near(shot.shape, point);
     std::vector<Eigen::Index> at;
     Eigen::VectorXd scale(n);
     for (std::size_t c = 0; c < sizes_.size(); ++c) {

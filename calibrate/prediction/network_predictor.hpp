@@ -18,7 +18,9 @@ class NetworkPredictor final : public Predictor {
     NetworkPredictor(emulator::Emulator emulator, const Settings& settings);
 
     RowMatrix predict(const Shot& shot, const RowMatrix& parameters) const override;
-    Eigen::MatrixXd error_covariance(const Shot& shot) const override;
+    /// From the held-out runs next to the point.
+    Eigen::MatrixXd error_covariance(const Shot& shot,
+                                     const Eigen::VectorXd& parameters) const override;
     double lowest_velocity_m_s() const override;
     double highest_velocity_m_s() const override;
 

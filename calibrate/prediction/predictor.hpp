@@ -15,8 +15,10 @@ class Predictor {
     /// Sizes [mm] of `shot`: a row for each row of `parameters` (plain values in the
     /// order of the configuration), columns in the order of the fitted sizes.
     virtual RowMatrix predict(const Shot& shot, const RowMatrix& parameters) const = 0;
-    /// Covariance [mm^2] of (solver - predictor) for the shot, in the same order.
-    virtual Eigen::MatrixXd error_covariance(const Shot& shot) const = 0;
+    /// Covariance [mm^2] of (solver - predictor) for the shot and one point of the
+    /// parameters, in the same order.
+    virtual Eigen::MatrixXd error_covariance(const Shot& shot,
+                                             const Eigen::VectorXd& parameters) const = 0;
     /// Range of impact velocity [m/s] in which it may be asked.
     virtual double lowest_velocity_m_s() const = 0;
     virtual double highest_velocity_m_s() const = 0;

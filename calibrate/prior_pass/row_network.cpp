@@ -12,8 +12,20 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
-double transformed(const emulator::InputInfo& info, double value) {
-    return info.transform == emulator::Transform::log10 ? std::log10(value) : value;
+RowNetwork::Path path_of(const Parameter& parameter, const emulator::InputInfo& info) {
+    if (parameter.normal_scale) return RowNetwork::Path::general;
+    if (parameter.log_uniform)
+        return info.transform == emulator::Transform::log10 ? RowNetwork::Path::affine
+                                                            : RowNetwork::Path::general;
+    switch (info.transform) {
+        case emulator::Transform::linear:
+            return RowNetwork::Path::affine;
+        case emulator::Transform::square_root:
+            return RowNetwork::Path::root;
+        case emulator::Transform::log10:
+            break;
+    }
+    return RowNetwork::Path::general;
 }
 
 /// Row-major tiles of next_tile() rows, each packed column by column.
@@ -82,11 +94,10 @@ RowNetwork::RowNetwork(const NetworkPredictor& predictor, const LotLikelihood& l
         for (std::size_t i = 0; i < predictor.emulator().inputs().size(); ++i)
             if (predictor.parameter_of_input(i) == static_cast<Eigen::Index>(d))
                 info = &predictor.emulator().inputs()[i];
-        const bool log = info->transform == emulator::Transform::log10;
-        Input input{&parameters[d], info,
-                    !parameters[d].normal_scale && log == parameters[d].log_uniform, 0,
-                    0};
-        const double low = standardised(input, d, 0), high = standardised(input, d, 1);
+        Input input{info, path_of(parameters[d], *info), 0, 0};
+        const bool of_value = input.path == Path::root;
+        const double low = of_value ? space_.value(d, 0) : standardised(input, d, 0);
+        const double high = of_value ? space_.value(d, 1) : standardised(input, d, 1);
         input.start = static_cast<float>(low);
         input.slope = static_cast<float>((high - low) * 0x1p-24);
         inputs_.push_back(input);
@@ -177,7 +188,7 @@ void RowNetwork::standardise(
         inputs[d].resize(padded, 0);
         const std::uint32_t* from = words[d].data();
         float* to = inputs[d].data();
-        if (!input.is_affine) {
+        if (input.path == Path::general) {
             for (std::size_t i = 0; i < count; ++i)
                 to[i] = static_cast<float>(standardised(input, d, unit_of(from[i])));
             continue;
@@ -186,6 +197,12 @@ void RowNetwork::standardise(
             to[i] = input.start +
                     input.slope *
                         (static_cast<float>(static_cast<int>(from[i] >> 8U)) + 0.5f);
+        if (input.path == Path::root) {
+            auto values =
+                Eigen::Map<Eigen::ArrayXf>(to, static_cast<Eigen::Index>(count));
+            values = (values.sqrt() - static_cast<float>(input.info->shift)) *
+                     static_cast<float>(1 / input.info->scale);
+        }
     }
 }
 

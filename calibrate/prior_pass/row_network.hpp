@@ -22,6 +22,9 @@ class RowNetwork {
     struct Workspace {
         std::vector<float> from, to;
     };
+    /// How coordinates of the unit cube become an input of the network: affinely, as the
+    /// root of an affine value, or by the prior's quantile, one by one.
+    enum class Path { affine, root, general };
 
     /// For the fitted rows of `likelihood`, with one misfit for each of `levels`.
     RowNetwork(const NetworkPredictor& predictor, const LotLikelihood& likelihood,
@@ -59,10 +62,10 @@ class RowNetwork {
     };
     /// From the unit interval to the network's input.
     struct Input {
-        const Parameter* parameter;
         const emulator::InputInfo* info;
-        bool is_affine;
-        float start, slope;  // slope by 2^-24
+        Path path;
+        float start,
+            slope;  // of the input, or of the value under the root; slope by 2^-24
     };
     void add_rows(const NetworkPredictor& predictor, const LotLikelihood& likelihood,
                   const std::vector<std::size_t>& levels);

@@ -36,15 +36,6 @@ int index_of(const std::string& name, const std::vector<std::string>& names,
     return static_cast<int>(found - names.begin());
 }
 
-double transformed(const InputInfo& input, double value) {
-    return input.transform == Transform::log10 ? std::log10(value) : value;
-}
-
-std::size_t used_inputs(const Model& model) {
-    return static_cast<std::size_t>(
-        std::ranges::count_if(model.inputs, &InputInfo::used));
-}
-
 /// Without the column of the cheaper solver, whose input is 0 in every answer.
 Model answering(Model model) {
     for (Member& member : model.members) {
@@ -90,10 +81,10 @@ int Emulator::category_index(const std::string& value) const {
 void Emulator::check_range(const std::string& name, double value,
                            const std::string& context) const {
     const InputInfo& input = model_.inputs[static_cast<std::size_t>(input_index(name))];
-    const double lower = transformed(input, input.lower);
-    const double upper = transformed(input, input.upper);
+    const double lower = on_range_scale(input, input.lower);
+    const double upper = on_range_scale(input, input.upper);
     const double margin = 0.01 * (upper - lower) + 1e-6 * std::abs(upper);
-    const double place = transformed(input, value);
+    const double place = on_range_scale(input, value);
     require(place >= lower - margin && place <= upper + margin,
             fmt::format("{}: {} = {} is beyond the emulator's range {:.6g} to {:.6g}. "
                         "Leave this point "
@@ -139,6 +130,8 @@ void Emulator::evaluate_member(std::size_t member, const Block& points, int cate
             if (input.transform == Transform::log10) {
                 constexpr auto per_e = static_cast<float>(std::numbers::log10e);
                 standardised.head(width) = (column.log() * per_e - shift) * factor;
+            } else if (input.transform == Transform::square_root) {
+                standardised.head(width) = (column.sqrt() - shift) * factor;
             } else {
                 standardised.head(width) = (column - shift) * factor;
             }
@@ -165,6 +158,26 @@ const Covariance& Emulator::covariance(const std::string& category_value) const 
                 "the database and train again.",
                 model_.category.name, category_value));
     return found->second;
+}
+
+Covariance Emulator::covariance_near(const std::string& category_value,
+                                     const Eigen::VectorXd& point) const {
+    Covariance result = covariance(category_value);
+    if (model_.held_out.empty()) return result;
+    Eigen::VectorXd place(static_cast<Eigen::Index>(used_inputs(model_)));
+    Eigen::Index at = 0;
+    for (std::size_t i = 0; i < model_.inputs.size(); ++i)
+        if (model_.inputs[i].used)
+            place(at++) =
+                standardised(model_.inputs[i], point(static_cast<Eigen::Index>(i)));
+    std::vector<Eigen::Index> columns;
+    for (const std::string& name : result.outputs) columns.push_back(output_index(name));
+    const std::string& own = model_.category.values.empty()
+                                 ? model_.covariances.front().first
+                                 : category_value;
+    result.matrix =
+        emulator::covariance_near(model_.held_out, own, place, columns, result.matrix);
+    return result;
 }
 
 }  // namespace taylorcal::emulator

@@ -61,6 +61,9 @@ class Emulator {
 
     /// Held-out covariance of a category value (any text when there is no category).
     const Covariance& covariance(const std::string& category_value) const;
+    /// The same near a point (all inputs, plain), from the held-out rows next to it.
+    Covariance covariance_near(const std::string& category_value,
+                               const Eigen::VectorXd& point) const;
 
   private:
     Model model_;

@@ -1,5 +1,9 @@
 #pragma once
 
+#include "emulator/inference/held_out.hpp"
+#include "emulator/inference/transform.hpp"
+
+#include <algorithm>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -10,8 +14,6 @@
 namespace taylorcal::emulator {
 
 inline constexpr const char* model_schema = "taylorcal/emulator/1";
-
-enum class Transform { linear, log10 };
 
 /// One column of the inputs. The network sees (t(x) - shift) / scale of those that are
 /// `used`; the others were constant in the database and only have their value checked.
@@ -24,6 +26,20 @@ struct InputInfo {
     double scale = 1;
     bool used = true;
 };
+
+/// t(value) of an input.
+inline double transformed(const InputInfo& input, double value) {
+    return transformed(input.transform, value);
+}
+/// An input as the network sees it.
+inline double standardised(const InputInfo& input, double value) {
+    return (transformed(input, value) - input.shift) / input.scale;
+}
+/// A value on the scale on which room at the ends of a range is measured: logarithmic for
+/// log10. A square root's would grow without bound towards zero.
+inline double on_range_scale(const InputInfo& input, double value) {
+    return input.transform == Transform::log10 ? transformed(input, value) : value;
+}
 
 /// One column of the outputs: (network * scale + shift) times the product of the inputs
 /// named in `divide_by`.
@@ -73,9 +89,15 @@ struct Model {
     bool corrects_cheaper_runs = false;
     /// By category value; one with the name "all" when there is no category.
     std::vector<std::pair<std::string, Covariance>> covariances;
+    HeldOut held_out;           ///< Empty in files of before.
     nlohmann::json validation;  ///< The figures of merit, without the covariances.
     nlohmann::json provenance;
 };
+
+inline std::size_t used_inputs(const Model& model) {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(model.inputs, &InputInfo::used));
+}
 
 nlohmann::json to_json(const Model& model);
 /// InputError naming `where` when the file is not a whole emulator of this schema.

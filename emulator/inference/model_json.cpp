@@ -17,7 +17,8 @@ using nlohmann::json;
 constexpr const char* recipe =
     "For a point x and a category value c: (1) for each input with used = true, in "
     "order, z = "
-    "(t(x) - shift) / scale, with t = log10 or the identity by 'transform'; (2) append "
+    "(t(x) - shift) / scale, with t = log10, the square root or the identity by "
+    "'transform'; (2) append "
     "one "
     "number for each of category.values, 1 where it equals c, else 0; (3) with the "
     "layers of "
@@ -67,10 +68,6 @@ json covariance_to_json(const Covariance& covariance) {
     return {{"outputs", covariance.outputs}, {"matrix", matrix}};
 }
 
-const char* word(Transform transform) {
-    return transform == Transform::log10 ? "log10" : "linear";
-}
-
 Eigen::VectorXd vector_from(const std::vector<double>& values) {
     return Eigen::Map<const Eigen::VectorXd>(values.data(),
                                              static_cast<Eigen::Index>(values.size()));
@@ -99,9 +96,7 @@ Eigen::MatrixXd matrix_from(const JsonReader& reader, std::string_view key) {
 InputInfo input_from(const JsonReader& reader) {
     InputInfo input;
     input.name = reader.text("name");
-    input.transform = reader.word("transform", {"linear", "log10"}) == "log10"
-                          ? Transform::log10
-                          : Transform::linear;
+    input.transform = transform_of(reader.word("transform", transform_words()));
     input.lower = reader.number("lower");
     input.upper = reader.number("upper");
     input.shift = reader.number("shift");
@@ -164,7 +159,7 @@ json to_json(const Model& model) {
                  {"validation", model.validation}};
     for (const InputInfo& input : model.inputs) {
         file["inputs"].push_back({{"name", input.name},
-                                  {"transform", word(input.transform)},
+                                  {"transform", word_of(input.transform)},
                                   {"lower", input.lower},
                                   {"upper", input.upper},
                                   {"shift", input.shift},
@@ -187,6 +182,7 @@ json to_json(const Model& model) {
     for (const auto& [value, covariance] : model.covariances) {
         file["validation"]["covariance"][value] = covariance_to_json(covariance);
     }
+    if (!model.held_out.empty()) file["validation"]["held_out"] = to_json(model.held_out);
     return file;
 }
 
@@ -214,6 +210,9 @@ Model model_from_json(const json& file, const std::string& where) {
     const JsonReader validation = reader.object("validation");
     model.validation = validation.json();
     model.validation.erase("covariance");
+    model.validation.erase("held_out");
+    if (validation.has("held_out"))
+        model.held_out = held_out_from(validation.object("held_out"));
     const JsonReader covariances = validation.object("covariance");
     for (const std::string& value : covariances.keys()) {
         const JsonReader covariance = covariances.object(value);

@@ -12,10 +12,6 @@ namespace taylorcal::emulator {
 
 namespace {
 
-double transformed(const InputInfo& input, double value) {
-    return input.transform == Transform::log10 ? std::log10(value) : value;
-}
-
 struct Moments {
     double mean;
     double deviation;
@@ -45,11 +41,10 @@ InputInfo describe_input(const InputChoice& choice, const Eigen::VectorXd& value
     input.transform = choice.transform;
     input.lower = values.minCoeff();
     input.upper = values.maxCoeff();
-    require(
-        input.transform == Transform::linear || input.lower > 0,
-        fmt::format("input \"{}\" has the value {} (log10 needs positive values). Use "
-                    "\"transform\": \"linear\".",
-                    input.name, input.lower));
+    require(std::isfinite(transformed(input, input.lower)),
+            fmt::format("input \"{}\" has the value {}, of which the transform {} cannot "
+                        "be taken. Use \"transform\": \"linear\".",
+                        input.name, input.lower, word_of(input.transform)));
     // A spread of the last digits only is a constant that went through arithmetic.
     input.used = input.upper - input.lower > 1e-9 * std::abs(input.upper);
     if (!input.used) return input;
@@ -136,8 +131,7 @@ Samples standardise(const Model& model, const Dataset& data,
             const InputInfo& input = model.inputs[i];
             if (!input.used) continue;
             const double value = data.inputs(row, static_cast<Eigen::Index>(i));
-            samples.inputs(to++, j) = static_cast<float>(
-                (transformed(input, value) - input.shift) / input.scale);
+            samples.inputs(to++, j) = static_cast<float>(standardised(input, value));
         }
         for (Eigen::Index c = 0; c < values; ++c) {
             const bool here = model.category.values[static_cast<std::size_t>(c)] ==

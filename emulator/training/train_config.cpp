@@ -20,10 +20,9 @@ std::vector<InputChoice> read_inputs(const JsonReader& reader) {
     std::vector<InputChoice> inputs;
     for (const JsonReader& input : reader.objects("inputs")) {
         input.only({"name", "transform"});
-        const bool log =
-            input.word("transform", {"linear", "log10"}, "linear") == "log10";
         inputs.push_back(
-            {input.text("name"), log ? Transform::log10 : Transform::linear});
+            {input.text("name"),
+             transform_of(input.word("transform", transform_words(), "linear"))});
     }
     if (inputs.empty()) reader.fail("inputs", "is empty. Name at least one input.");
     return inputs;

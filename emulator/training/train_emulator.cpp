@@ -116,8 +116,15 @@ void judge(Model& model, const Dataset& data, const Split& split) {
     }
     std::vector<std::string> names;
     for (const OutputInfo& output : model.outputs) names.push_back(output.name);
-    model.covariances = covariances(difference(split.validation, Eigen::all), categories,
-                                    data.outputs, data.categories, names);
+    const RowMatrix held_out = difference(split.validation, Eigen::all);
+    model.covariances =
+        covariances(held_out, categories, data.outputs, data.categories, names);
+    const Eigen::MatrixXf seen = standardise(model, data, split.validation).inputs;
+    model.held_out = {categories,
+                      seen.topRows(static_cast<Eigen::Index>(used_inputs(model)))
+                          .transpose()
+                          .cast<double>(),
+                      held_out};
 }
 
 /// Trains the members of a described model: from random weights, or from its members if

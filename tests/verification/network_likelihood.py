@@ -40,6 +40,8 @@ class Network:
             value = values[info["name"]]
             if info.get("transform") == "log10":
                 value = np.log10(value)
+            elif info.get("transform") == "square_root":
+                value = np.sqrt(value)
             columns.append(np.broadcast_to((value - info["shift"]) / info["scale"], points))
         hot = [np.broadcast_to(np.equal(shape, name).astype(float), points) for name in self.shapes]
         signal = np.vstack([*columns, *hot])

@@ -108,6 +108,7 @@ def test_train_settings_divide_sizes_by_the_specimen(tiny_study):
     settings = train_settings(tiny_study)
     assert settings["category"] is None
     assert {"name": "rho_immobile_initial", "transform": "log10"} in settings["inputs"]
+    assert {"name": "hardening_coefficient", "transform": "square_root"} in settings["inputs"]
     length, diameter = settings["outputs"]
     assert length["divide_by"] == ["initial_diameter_mm", "length_to_diameter"]
     assert diameter["divide_by"] == ["initial_diameter_mm"]

@@ -77,7 +77,7 @@ Exact exact_posterior(const LinearCase& c, const ParameterSpace& space) {
     Eigen::VectorXd b = Eigen::VectorXd::Zero(p);
     double log_z = 0.5 * static_cast<double>(p) * std::log(2 * std::numbers::pi);
     for (const Datum* datum : c.set.fitted()) {
-        Eigen::MatrixXd covariance = c.model.error_covariance(datum->shot);
+        Eigen::MatrixXd covariance = c.model.error_covariance(datum->shot, {});
         covariance.diagonal() += datum->sd_mm.cwiseAbs2();
         const auto predict = [&](const Eigen::VectorXd& unit) -> Eigen::VectorXd {
             const RowMatrix point = unit.transpose();

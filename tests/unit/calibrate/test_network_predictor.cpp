@@ -90,10 +90,38 @@ TEST_CASE("the network is asked for the shot and the parameters", "[network]") {
 }
 
 TEST_CASE("the network's covariance is scaled by the specimen", "[network]") {
-    const Eigen::MatrixXd covariance = predictor().error_covariance(good_shot());
+    const Eigen::VectorXd density = Eigen::VectorXd::Constant(1, 1e12);
+    const Eigen::MatrixXd covariance = predictor().error_covariance(good_shot(), density);
     CHECK(covariance(0, 0) == Approx(4e-4 * 8 * 8));
     CHECK(covariance(1, 1) == Approx(1e-4 * 40 * 40));
     CHECK(covariance(0, 1) == Approx(2e-5 * 8 * 40));
+}
+
+TEST_CASE("the network's covariance is that of the held-out runs next to the metal",
+          "[network]") {
+    // Soft metal (log10 rho = 10) is off by ten times as much as hard metal (15).
+    emulator::Model model = small_network();
+    const auto rows = 2 * emulator::neighbours;
+    model.held_out.places = Eigen::MatrixXd::Zero(rows, 3);
+    model.held_out.errors.resize(rows, 2);
+    for (Eigen::Index i = 0; i < rows; ++i) {
+        const bool soft = i < emulator::neighbours;
+        model.held_out.categories.emplace_back("uniform_cylinder");
+        model.held_out.places(i, 2) = soft ? -1 : 1.5;
+        model.held_out.errors.row(i) << (i % 2 ? 1 : -1) * (soft ? 0.05 : 0.005), 0.01;
+    }
+    const NetworkPredictor near(emulator::Emulator(model), settings_of(1e10, 1e15));
+    const double weight = 1.0 / (emulator::neighbours + 1);
+    const auto of = [&](double density) {
+        return near.error_covariance(good_shot(), Eigen::VectorXd::Constant(1, density));
+    };
+    const auto blended = [&](double own, double whole) {
+        return (1 - weight) * own + weight * whole;
+    };
+    CHECK(of(1e10)(1, 1) == Approx(1600 * blended(2.5e-3, 1e-4)));
+    CHECK(of(1e15)(1, 1) == Approx(1600 * blended(2.5e-5, 1e-4)));
+    CHECK(of(1e15)(0, 0) == Approx(64 * blended(1e-4, 4e-4)));
+    CHECK(of(1e15)(0, 1) == Approx(320 * weight * 2e-5));
 }
 
 TEST_CASE("shots beyond the network are refused", "[network]") {

@@ -166,8 +166,8 @@ TEST_CASE("misfits in single precision are those in double precision", "[plain]"
     problem.set.data[2].sd_mm = Eigen::Vector2d(0.4, 0.6);
     problem.set.data[2].scale_mm = Eigen::Vector2d(39, 11);
     const auto layers = toys::random_layers(4, 3, 8);
-    const NetworkPredictor predictor =
-        toys::network(problem.settings, layers, problem.network_errors);
+    const NetworkPredictor predictor = toys::network(
+        problem.settings, layers, problem.network_errors, GENERATE(false, true));
     const ParameterSpace space(problem.settings.parameters, problem.set.lots);
     const LotLikelihood likelihood(problem.settings, problem.set, space, predictor,
                                    Eigen::Vector3d::Constant(0.5));

@@ -23,7 +23,9 @@ class ClosedForm final : public Predictor {
             all.row(i) = function_(shot, parameters.row(i).transpose()).transpose();
         return all;
     }
-    Eigen::MatrixXd error_covariance(const Shot&) const override { return covariance_; }
+    Eigen::MatrixXd error_covariance(const Shot&, const Eigen::VectorXd&) const override {
+        return covariance_;
+    }
     double lowest_velocity_m_s() const override { return 1; }
     double highest_velocity_m_s() const override { return 1000; }
 

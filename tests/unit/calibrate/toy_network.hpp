@@ -12,20 +12,22 @@
 namespace taylorcal::calibrate::toys {
 
 /// A network of given layers over velocity [100 m/s above 100] and the parameters, each
-/// as its place in the unit interval; outputs are the fitted sizes in mm.
+/// as its place in the unit interval; outputs are the fitted sizes in mm. `roots`: of
+/// those that are uniform from 0 or above, the square root.
 inline NetworkPredictor network(const Settings& settings,
                                 const std::vector<emulator::Layer>& layers,
-                                const Eigen::MatrixXd& covariance) {
+                                const Eigen::MatrixXd& covariance, bool roots = false) {
+    using emulator::Transform;
     emulator::Model model;
-    model.inputs.push_back(
-        {"velocity_m_s", emulator::Transform::linear, 50, 200, 100, 100, true});
+    model.inputs.push_back({"velocity_m_s", Transform::linear, 50, 200, 100, 100, true});
     for (const Parameter& p : settings.parameters) {
-        const bool log = p.log_uniform;
-        const double low = log ? std::log10(p.lower) : p.lower;
-        const double high = log ? std::log10(p.upper) : p.upper;
+        const Transform transform = p.log_uniform           ? Transform::log10
+                                    : roots && p.lower >= 0 ? Transform::square_root
+                                                            : Transform::linear;
+        const double low = emulator::transformed(transform, p.lower);
+        const double high = emulator::transformed(transform, p.upper);
         model.inputs.push_back(
-            {p.name, log ? emulator::Transform::log10 : emulator::Transform::linear,
-             p.lower, p.upper, low, high - low, true});
+            {p.name, transform, p.lower, p.upper, low, high - low, true});
     }
     for (const std::string& size : settings.fit_sizes)
         model.outputs.push_back({size, 0, 1, {}});

@@ -21,7 +21,7 @@ Model sample_model() {
     model.inputs = {{"speed", Transform::linear, 50, 250, 150, 60, true},
                     {"density", Transform::log10, 1e10, 1e15, 12.5, 1.5, true},
                     {"fixed", Transform::linear, 294, 294, 0, 1, false},
-                    {"size", Transform::linear, 5, 10, 7.5, 1.5, true}};
+                    {"size", Transform::square_root, 5, 10, 2.7, 0.3, true}};
     model.category = {"kind", {"curved", "plain"}};
     model.outputs = {{"length", 0.8, 0.1, {"size", "fixed"}}, {"ratio", 1.2, 0.2, {}}};
     std::srand(3);
@@ -94,6 +94,24 @@ TEST_CASE("a model keeps every bit in its file", "[emulator]") {
               model.members[0].layers[layer].weights);
         CHECK(again.members[0].layers[layer].bias == model.members[0].layers[layer].bias);
     }
+}
+
+TEST_CASE("held-out errors keep their gaps in the file", "[emulator]") {
+    Model model = sample_model();
+    model.held_out.categories = {"plain", "curved"};
+    model.held_out.places = Eigen::MatrixXd::Random(2, 3);
+    model.held_out.errors = Eigen::MatrixXd::Constant(2, 2, 0.25);
+    model.held_out.errors(0, 1) = std::nan("");
+    const Model again =
+        model_from_json(nlohmann::json::parse(to_json(model).dump()), "emulator.json");
+    CHECK(again.held_out.categories == model.held_out.categories);
+    CHECK(again.held_out.places == model.held_out.places);
+    CHECK(again.held_out.errors(1, 1) == 0.25);
+    CHECK(std::isnan(again.held_out.errors(0, 1)));
+    nlohmann::json short_of_one = to_json(model);
+    short_of_one["validation"]["held_out"]["errors"].erase(0);
+    CHECK_THROWS_WITH(model_from_json(short_of_one, "emulator.json"),
+                      Contains("errors") && Contains("Train again"));
 }
 
 TEST_CASE("a point beyond the range is refused with name, value, range and remedy",

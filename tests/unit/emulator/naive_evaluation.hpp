@@ -19,6 +19,7 @@ inline std::vector<double> follow_recipe(const nlohmann::json& file, std::size_t
         if (!input["used"].get<bool>()) continue;
         double x = point.at(input["name"].get<std::string>());
         if (input["transform"] == "log10") x = std::log10(x);
+        if (input["transform"] == "square_root") x = std::sqrt(x);
         z.push_back((x - input["shift"].get<double>()) / input["scale"].get<double>());
     }
     if (!file["category"].is_null()) {

@@ -69,6 +69,43 @@ def hardening_rows(path):
     return np.flatnonzero(np.all(above, axis=0))
 
 
+def sizes_of(path, names):
+    """Sizes by run id; none of a run that did not stop."""
+    with h5py.File(path) as file:
+        known = [str(name) for name in file["outputs"].attrs["names"]]
+        sizes = file["outputs"][:][:, [known.index(name) for name in names]]
+        sizes[file["status"][:] != 0] = np.nan
+        table = pd.DataFrame(sizes, index=file["run_id"][:], columns=names)
+        table["shape"] = file["shape"].asstr()[:]
+    return table
+
+
+def solver_scatter(better, repeats, names):
+    """Scatter of one run about the mean over grains [%], as the network's error is counted: of each
+    output's mean by shape. No network can be nearer to single runs."""
+    again = sizes_of(repeats, names)
+    first = sizes_of(better, names).loc[again.index]
+    hardening = again.index[hardening_rows(repeats)]
+    rows = []
+    for words, chosen in (("all", again.index), ("hardening", hardening)):
+        one, other = first.loc[chosen], again.loc[chosen]
+        means = one.groupby("shape")[names].transform("mean")
+        deviation = 100 * (one[names] - other[names]) / means / np.sqrt(2)
+        parts = {name: np.sqrt((deviation[name] ** 2).mean()) for name in names}
+        whole = deviation.to_numpy().ravel()
+        whole = whole[np.isfinite(whole)]
+        rows.append(
+            {
+                "runs": words,
+                "n": len(chosen),
+                "rms_percent": np.sqrt(np.mean(whole**2)),
+                "largest_percent": np.abs(whole).max(),
+                **{f"{name}_rms_percent": value for name, value in parts.items()},
+            }
+        )
+    return pd.DataFrame(rows)
+
+
 def compare(database, better, train, folder):
     """One row for each number of cheaper and better runs that a network learnt from."""
     folder.mkdir(parents=True, exist_ok=True)
@@ -111,7 +148,7 @@ def compare(database, better, train, folder):
     return pd.DataFrame(rows)
 
 
-def draw(table, path):
+def draw(table, scatter, path):
     figure, axes = plt.subplots(1, 2, figsize=(9, 3.8), sharex=True)
     titles = {"rms_percent": "RMS", "largest_percent": "largest"}
     for axis, (column, title) in zip(axes, titles.items()):
@@ -122,6 +159,9 @@ def draw(table, path):
                 spot = (row["core_hours"], row[column])
                 text = f"{int(row['better_runs'])}"
                 axis.annotate(text, spot, (4, 4), textcoords="offset points", fontsize=8)
+        floor = scatter.loc[scatter["runs"] == "all", column].item()
+        axis.axhline(floor, color="0.5", ls="--", lw=1)
+        axis.annotate("scatter of the solver's own runs", (0.02, floor), fontsize=8, color="0.4")
         axis.set_yscale("log")
         axis.set_xlabel("runs learnt from [core-hours]")
         axis.set_ylabel(f"{title} error on held-out standard runs [%]")
@@ -139,4 +179,8 @@ if __name__ == "__main__":
         Path(snakemake.output.table).with_suffix(""),  # noqa: F821
     )
     found.round(4).to_csv(snakemake.output.table, index=False)  # noqa: F821
-    draw(found, snakemake.output.figure)  # noqa: F821
+    train = json.loads(Path(snakemake.input.train).read_text())  # noqa: F821
+    outputs = [output["name"] for output in train["outputs"]]
+    scatter = solver_scatter(snakemake.input.better, snakemake.input.repeats, outputs)  # noqa: F821
+    scatter.round(4).to_csv(snakemake.output.scatter, index=False)  # noqa: F821
+    draw(found, scatter, snakemake.output.figure)  # noqa: F821

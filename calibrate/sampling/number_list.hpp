@@ -2,11 +2,17 @@
 
 #include <cstdint>
 #include <stdexcept>
+#include <type_traits>
 #include <vector>
 
 #include <Eigen/Core>
 
 namespace taylorcal::calibrate {
+
+/// A class of ours; matrices have a `visit` of another meaning.
+template <class State>
+concept TellsItsMembers =
+    std::is_class_v<State> && !std::is_base_of_v<Eigen::EigenBase<State>, State>;
 
 /// Writes the numbers that a state consists of one after the other, as doubles: exact
 /// also for counts, which stay below 2^53. A class tells its members, the same for
@@ -37,8 +43,8 @@ class NumberWriter {
         put(std::uint64_t{items.size()});
         for (Item& item : items) put(item);
     }
-    template <class State>
-    auto put(State& state) -> decltype(state.visit(*this)) {
+    template <TellsItsMembers State>
+    void put(State& state) {
         state.visit(*this);
     }
 };
@@ -81,8 +87,8 @@ class NumberReader {
         items.resize(size);
         for (Item& item : items) take(item);
     }
-    template <class State>
-    auto take(State& state) -> decltype(state.visit(*this)) {
+    template <TellsItsMembers State>
+    void take(State& state) {
         state.visit(*this);
     }
 

@@ -34,7 +34,7 @@ struct Problem {
         settings.parameters = {{"a", 0, 1, false, false}, {"own", 0, 1, false, true}};
         settings.fit_sizes = {"final_length_mm", "impact_diameter_mm"};
         settings.velocity_sd_relative = 0;
-        settings.draws = 6000;
+        settings.draws = 24000;
         settings.draws_per_lot = 8;
         settings.kept_draws = 100;
         std::vector<Shot> shots;
@@ -88,9 +88,10 @@ TEST_CASE("a sampling killed again and again gives the draws of an undisturbed o
     problem.predicted = 0;
 
     int kills = 0;
-    // A seventh: less than the last pass, more than one that looks for the proposal.
-    while (problem.killed_after(undisturbed / 7, 1 + kills % 3)) ++kills;
-    CHECK(kills >= 6);
+    // A quarter: more than a pass of the search, or the draws that threads have in hand.
+    while (kills < 20 && problem.killed_after(undisturbed / 4, 1 + kills % 3)) ++kills;
+    CHECK(kills >= 3);
+    CHECK(kills < 20);
     const long before = problem.predicted;
     check_same(problem.sample(2), whole);
     // The last state was saved: nothing of it is computed again.
@@ -107,7 +108,7 @@ TEST_CASE("a kill costs a pass of the search or the draws in hand", "[resume]") 
     REQUIRE(problem.killed_after(undisturbed * 3 / 4, 2));
     check_same(problem.sample(2), whole);
     const long batch = 32 * 1024 * 2;  // two shots
-    const long pass = 2 * 1200 * 8;    // of the search
+    const long pass = 2 * 4000 * 8;    // of the search
     CHECK(problem.predicted - undisturbed <= std::max(batch, pass) + undisturbed / 100);
     std::filesystem::remove(problem.path);
 }

@@ -108,7 +108,7 @@ def test_each_result_leads_to_program_inputs_seed_and_cost(entities):
 
 SMALL_DIAGNOSIS = """
 diagnosis:
-  points_per_shape: 3
+  points_per_shape: 4
   candidates: [anvil_friction]
   constants: []
 """

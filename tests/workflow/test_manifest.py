@@ -6,6 +6,7 @@ import platform
 import re
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 from tiny_study import STUDY, copy_workspace
@@ -135,7 +136,8 @@ def test_each_result_has_its_machine_seconds_inputs_version_and_settings(
     done = workspace.run("--show-failed-logs", "all", f"results/{STUDY}/diagnosis.html")
     assert done.returncode == 0, done.stdout
     monkeypatch.chdir(workspace.folder)
-    graph = read_json(write_manifest(load_study(STUDY), workspace.study, workspace.results))
+    study, results = Path("experiments") / STUDY, Path("results") / STUDY
+    graph = read_json(write_manifest(load_study(STUDY), study, results))
     by_id = {entity["@id"]: entity for entity in graph["@graph"]}
     jobs = of_type(by_id, "CreateAction")
     for name, program in MADE_BY.items():

@@ -42,7 +42,7 @@ test: build ## unit, verification and workflow tests
 	$(PYTHON) -m pytest
 
 kills: build ## the heavy test: 300 runs whose workflow is killed 20 times; minutes
-	TAYLORCAL_KILLS=20 $(PYTHON) -m pytest -s tests/workflow/test_interruptions.py -k killed_at_random
+	TAYLORCAL_KILLS=1 $(PYTHON) -m pytest -s tests/workflow/test_many_kills.py
 
 lint: lint-format lint-python lint-workflow lint-tidy ## style and static checks; warnings are errors
 

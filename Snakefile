@@ -11,6 +11,7 @@ include: "workflow/rules/common_signatures.smk"
 include: "workflow/rules/common_pages.smk"
 include: "workflow/rules/design.smk"
 include: "workflow/rules/runs.smk"
+include: "workflow/rules/further.smk"
 include: "workflow/rules/better.smk"
 include: "workflow/rules/outlines.smk"
 include: "workflow/rules/emulator.smk"
@@ -28,6 +29,7 @@ localrules:
     all,
     settings,
     design,
+    further_design,
     better_design,
     merge,
     better,

@@ -1,6 +1,7 @@
 #include "common/provenance.hpp"
 
 #include "common/revision.hpp"
+#include "common/sha256.hpp"
 #include "common/simd.hpp"
 
 #include <fstream>
@@ -35,16 +36,7 @@ nlohmann::json provenance(const std::string& program, std::uint64_t seed,
             {"simd", simd::name(simd::variant())},
             {"seed", seed},
             {"configuration", configuration},
-            {"configuration_digest", digest(configuration.dump())}};
-}
-
-std::string digest(const std::string& text) {
-    std::uint64_t hash = 0xCBF29CE484222325;  // FNV-1a offset basis
-    for (const char character : text) {
-        hash ^= static_cast<unsigned char>(character);
-        hash *= 0x100000001B3;  // FNV prime
-    }
-    return fmt::format("{:016x}", hash);
+            {"configuration_digest", sha256(configuration.dump())}};
 }
 
 std::string version() {

@@ -8,13 +8,10 @@
 namespace taylorcal {
 
 /// What every output records: program, version, source revision, compiler, processor,
-/// variant of the hot loops, seed and configuration (whole, and its digest). No dates:
+/// variant of the hot loops, seed and configuration (whole, and its SHA-256). No dates:
 /// same inputs, same bytes.
 nlohmann::json provenance(const std::string& program, std::uint64_t seed,
                           const nlohmann::json& configuration);
-
-/// Stable 64-bit FNV-1a digest of a text, as 16 hexadecimal digits.
-std::string digest(const std::string& text);
 
 /// Project version and source revision, e.g. "0.1.0 (3f2a91c)".
 std::string version();

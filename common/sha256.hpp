@@ -6,8 +6,7 @@
 
 namespace taylorcal {
 
-/// SHA-256 of `bytes` as 64 hexadecimal digits (FIPS 180-4, section 6.2): what
-/// `sha256sum` prints.
+/// SHA-256 of `bytes` as 64 hexadecimal digits: what `sha256sum` prints. Made by OpenSSL.
 std::string sha256(std::string_view bytes);
 
 /// The same of a file's bytes. InputError when it cannot be read.

@@ -79,24 +79,23 @@ std::function<void(std::uint64_t)> bar(std::optional<Progress>& progress,
     };
 }
 
-PosteriorResult sample_plain(const StudyInputs& inputs, const PlainRun& run) {
+PosteriorResult sample_plain(const StudyInputs& inputs, const SamplingRun& run) {
     PlainResult found =
         sample_prior(inputs.settings, inputs.set, inputs.space, inputs.predictor, run);
     PosteriorResult result;
     result.plain = {
         std::move(found.convergence), found.dropping,
         sample_subsets(inputs.settings, inputs.set, inputs.space, inputs.predictor,
-                       run.threads, found.posterior.reference)};
+                       {run.threads, run.checkpoint}, found.posterior.reference)};
     result.posterior = std::move(found.posterior);
     result.maps = std::move(found.maps);
     return result;
 }
 
-PosteriorResult sample_adapted(const StudyInputs& inputs, int threads,
-                               const std::function<void(std::uint64_t)>& advance) {
+PosteriorResult sample_adapted(const StudyInputs& inputs, const SamplingRun& run) {
     PosteriorResult result;
     result.posterior = sample_posterior(inputs.settings, inputs.set, inputs.space,
-                                        inputs.predictor, threads, advance);
+                                        inputs.predictor, run);
     result.maps =
         make_maps(result.posterior.pool, inputs.space, spread_levels(inputs.settings));
     return result;
@@ -122,21 +121,19 @@ void print_subsets(const PlainFindings& findings, const ParameterSpace& space) {
 void sample(const InputPaths& paths, const std::filesystem::path& out, int threads) {
     const StudyInputs inputs(paths);
     const bool plain = inputs.settings.draws_from == DrawsFrom::prior;
-    const std::filesystem::path checkpoint = out.string() + ".checkpoint";
+    const Checkpoint checkpoint{out.string() + ".checkpoint", digest_of(paths)};
     PosteriorResult result;
     {
         std::optional<Progress> progress;
-        const auto advance = bar(progress, inputs.settings.draws);
-        result = plain ? sample_plain(inputs,
-                                      {threads, {checkpoint, digest_of(paths)}, advance})
-                       : sample_adapted(inputs, threads, advance);
+        const SamplingRun run{threads, checkpoint, bar(progress, inputs.settings.draws)};
+        result = plain ? sample_plain(inputs, run) : sample_adapted(inputs, run);
     }
     const LotLikelihood likelihood(inputs.settings, inputs.set, inputs.space,
                                    inputs.predictor, result.posterior.reference);
     result.maxima =
         find_maxima(likelihood, result.posterior.kept, result.posterior.log_evidence);
     write_posterior(out, result, inputs.space, likelihood.levels(), inputs.settings);
-    std::filesystem::remove(checkpoint);
+    remove(checkpoint);
     print_result(result, inputs.space, likelihood.levels(), inputs.settings);
     if (result.plain) print_subsets(*result.plain, inputs.space);
     warn_of_doubts(result.posterior, likelihood.levels());

@@ -1,7 +1,5 @@
 #include "calibrate/prior_pass/run_plain_pass.hpp"
 
-#include "common/hdf5_file.hpp"
-
 #include <algorithm>
 #include <chrono>
 #include <exception>
@@ -9,29 +7,21 @@
 namespace taylorcal::calibrate {
 namespace {
 
-constexpr const char* checkpoint_schema = "taylorcal/plain_pass/1";
-
-void save(const Checkpoint& checkpoint, RunningResult& result) {
-    if (checkpoint.path.empty()) return;
-    Hdf5Writer file(checkpoint.path);
-    file.attribute("schema", checkpoint_schema);
-    file.attribute("key", checkpoint.key);
-    result.visit([&](const char* name, const std::vector<double>& values) {
-        file.numbers(name, values);
+void save_result(const Checkpoint& checkpoint, RunningResult& result) {
+    NamedNumbers all = {{"pool", result.pool_numbers()}};
+    result.visit([&all](const char* name, const std::vector<double>& values) {
+        all[name] = values;
     });
-    file.numbers("pool", result.pool_numbers());
-    file.close();
+    save(checkpoint, all);
 }
 
 void load(const Checkpoint& checkpoint, RunningResult& result) {
-    if (checkpoint.path.empty() || !std::filesystem::exists(checkpoint.path)) return;
-    const Hdf5Reader file(checkpoint.path);
-    file.expect_schema(checkpoint_schema);
-    if (file.text_attribute("key") != checkpoint.key) return;
-    result.visit([&](const char* name, std::vector<double>& values) {
-        values = file.numbers(name);
+    const auto all = saved(checkpoint);
+    if (!all) return;
+    result.visit([&all](const char* name, std::vector<double>& values) {
+        values = all->at(name);
     });
-    result.restore_pool(file.numbers("pool"));
+    result.restore_pool(all->at("pool"));
 }
 
 }  // namespace
@@ -70,7 +60,7 @@ std::uint64_t run_plain_pass(const PlainPass& pass, RunningResult& result, int t
         const auto now = Clock::now();
         if (std::chrono::duration<double>(now - saved).count() >= checkpoint.seconds ||
             result.next_block() == blocks) {
-            save(checkpoint, result);
+            save_result(checkpoint, result);
             saved = now;
         }
         if (advance) advance(draws);

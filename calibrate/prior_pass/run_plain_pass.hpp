@@ -2,20 +2,12 @@
 
 #include "calibrate/prior_pass/draw_block.hpp"
 #include "calibrate/prior_pass/running_result.hpp"
+#include "calibrate/sampling/checkpoint.hpp"
 
 #include <cstdint>
-#include <filesystem>
 #include <functional>
-#include <string>
 
 namespace taylorcal::calibrate {
-
-/// Where a pass saves how far it has come.
-struct Checkpoint {
-    std::filesystem::path path;  ///< empty: nowhere
-    std::string key;             ///< digest of everything that the pass depends on
-    double seconds = 60;         ///< between two saves
-};
 
 /// Runs a pass on several threads and adds its blocks to `result` in their order, so that
 /// the bytes do not depend on the threads. A saved state with the same key is taken up

@@ -234,26 +234,4 @@ Maps RunningResult::maps() const {
     return made;
 }
 
-std::vector<double> RunningResult::pool_numbers() const {
-    std::vector<double> numbers;
-    for (const ChosenDraw& draw : pool_.draws()) {
-        numbers.insert(numbers.end(),
-                       {static_cast<double>(draw.number), draw.log_weight,
-                        draw.log_priority, static_cast<double>(draw.level)});
-        numbers.insert(numbers.end(), draw.unit.begin(), draw.unit.end());
-    }
-    return numbers;
-}
-
-void RunningResult::restore_pool(const std::vector<double>& numbers) {
-    const std::size_t stride = 4 + dimensions_;
-    for (std::size_t at = 0; at < numbers.size(); at += stride) {
-        const double* line = numbers.data() + at;
-        pool_.add({{static_cast<std::uint64_t>(line[0]), line[1], line[2],
-                    Eigen::Map<const Eigen::VectorXd>(
-                        line + 4, static_cast<Eigen::Index>(dimensions_)),
-                    static_cast<std::size_t>(line[3])}});
-    }
-}
-
 }  // namespace taylorcal::calibrate

@@ -60,8 +60,10 @@ class RunningResult {
         visit_one("histograms_with_levels", with_levels_);
         visit_one("decades", decades_);
     }
-    std::vector<double> pool_numbers() const;
-    void restore_pool(const std::vector<double>& numbers);
+    std::vector<double> pool_numbers() const { return pool_.numbers(); }
+    void restore_pool(const std::vector<double>& numbers) {
+        pool_.restore(numbers, dimensions_);
+    }
 
   private:
     enum CountAt { next_block_at, draws_at, rows_at };

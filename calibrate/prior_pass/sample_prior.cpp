@@ -63,9 +63,10 @@ Progression progression_of(const Posterior& found, const ParameterSpace& space) 
 
 PlainResult sample_prior(const Settings& settings, const DataSet& set,
                          const ParameterSpace& space, const NetworkPredictor& predictor,
-                         const PlainRun& run) {
+                         const SamplingRun& run) {
     const Posterior pilot =
-        sample_posterior(pilot_settings(settings), set, space, predictor, run.threads);
+        sample_posterior(pilot_settings(settings), set, space, predictor,
+                         {run.threads, run.checkpoint.of_part("pilot")});
     const LotLikelihood likelihood(settings, set, space, predictor, pilot.reference);
     const Pruning pruning(likelihood, pilot.log_evidence, dropped_share);
     const RowNetwork network(predictor, likelihood, pruning.misfit_levels());
@@ -114,14 +115,15 @@ PlainResult sample_prior(const Settings& settings, const DataSet& set,
 
 std::vector<SubsetFindings> sample_subsets(const Settings& settings, const DataSet& set,
                                            const ParameterSpace& space,
-                                           const NetworkPredictor& predictor, int threads,
+                                           const NetworkPredictor& predictor,
+                                           const SamplingRun& run,
                                            const Eigen::VectorXd& reference) {
     std::vector<SubsetFindings> findings;
     for (const DataSubset& subset : data_subsets(set)) {
         spdlog::info("{} alone", subset.name);
-        const Posterior found =
-            sample_posterior(pilot_settings(settings), subset.set, space, predictor,
-                             threads, {}, &reference);
+        const Posterior found = sample_posterior(
+            pilot_settings(settings), subset.set, space, predictor,
+            {run.threads, run.checkpoint.of_part(subset.name)}, &reference);
         findings.push_back({subset.name, progression_of(found, space),
                             make_maps(found.pool, space, spread_levels(settings))});
     }

@@ -4,7 +4,6 @@
 #include "calibrate/prior_pass/run_plain_pass.hpp"
 #include "calibrate/sampling/sample_posterior.hpp"
 
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -18,19 +17,12 @@ struct PlainResult {
     Dropping dropping;
 };
 
-/// How plain draws are followed and saved.
-struct PlainRun {
-    int threads = 1;
-    Checkpoint checkpoint;
-    std::function<void(std::uint64_t)> advance;  ///< told of draws as they are done
-};
-
 /// Samples the posterior by plain draws from the prior, most of which are dropped after a
 /// few rows (see Pruning). A short adapted sampling tells the threshold, the maps' ranges
 /// and the point at which df/dv is taken.
 PlainResult sample_prior(const Settings& settings, const DataSet& set,
                          const ParameterSpace& space, const NetworkPredictor& predictor,
-                         const PlainRun& run);
+                         const SamplingRun& run);
 
 /// The parts of the table alone, with the errors of the whole. A posterior that fills one
 /// part in a million of the prior leaves few of any plain draws that a part could be
@@ -38,7 +30,8 @@ PlainResult sample_prior(const Settings& settings, const DataSet& set,
 /// thousands of effective draws.
 std::vector<SubsetFindings> sample_subsets(const Settings& settings, const DataSet& set,
                                            const ParameterSpace& space,
-                                           const NetworkPredictor& predictor, int threads,
+                                           const NetworkPredictor& predictor,
+                                           const SamplingRun& run,
                                            const Eigen::VectorXd& reference);
 
 }  // namespace taylorcal::calibrate

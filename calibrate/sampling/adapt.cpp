@@ -23,7 +23,7 @@ DrawTable evaluate_pass(const Pass& pass) {
     std::vector<DrawTable> tables;
     run_pass(
         pass, [](DrawTable table) { return table; },
-        [&tables](DrawTable table) { tables.push_back(std::move(table)); });
+        [&tables](DrawTable table) { tables.push_back(std::move(table)); }, [] {});
     return join(tables);
 }
 
@@ -80,51 +80,59 @@ Eigen::VectorXd best_point(const DrawTable& table, const SpreadLevels& levels,
     return point;
 }
 
-}  // namespace
-
-Adaptation adapt(const Settings& settings, const DataSet& set,
-                 const ParameterSpace& space, const Predictor& predictor, int threads) {
+/// One pass with the proposal that comes next, and what follows from it.
+void take_pass(Adaptation& search, const Settings& settings, const DataSet& set,
+               const ParameterSpace& space, const Predictor& predictor, int threads) {
     const std::uint64_t draws =
         std::clamp(settings.draws / 5, fewest_draws_of_pass, most_draws_of_pass);
     const double wanted = effective_share * static_cast<double>(draws);
-    const auto size = static_cast<Eigen::Index>(space.size());
-    Adaptation best{Proposal(space), Eigen::VectorXd::Constant(size, 0.5), 0, 0};
-    Proposal proposal = best.proposal;
-    double most_effective = 0;
-    bool is_full = false;
-    while (best.passes < most_passes) {
-        ++best.passes;
-        const LotLikelihood likelihood(settings, set, space, predictor, best.reference);
-        const DrawNumbers numbers(settings.seed, best.passes);
-        const DrawTable table = evaluate_pass(
-            {likelihood, proposal, numbers, draws, settings.draws_per_lot, threads});
-        best.predictions +=
-            draws * static_cast<std::uint64_t>(table.inner) * likelihood.shots();
-        const SpreadLevels& levels = likelihood.levels();
-        const double effective = DrawWeights(table, levels).effective_size();
-        best.reference = best_point(table, levels, space);
-        if (effective > most_effective) {
-            most_effective = effective;
-            best.proposal = proposal;
-        }
-        const double scale =
-            static_cast<double>(settings.draws) / static_cast<double>(draws);
-        if (best.passes == 1 && effective * scale >= 2 * enough_draws) break;
-        const double power = largest_power(table, levels, wanted);
-        spdlog::info(
-            "pass {}: {:.0f} effective of {} draws, likelihood to the power {:.3g}",
-            best.passes, effective, draws, power);
-        // One more pass after the first at full power sharpens the proposal.
-        if (is_full && power == 1) break;
-        is_full = power == 1;
-        const DrawWeights weights(table, levels, power);
-        if (!std::isfinite(weights.log_weights().maxCoeff()))
-            throw NumericalError(
-                "no draw has a likelihood above zero: the predictions are "
-                "not finite or the priors exclude every measurement");
-        proposal = fit_proposal(table, weights, numbers);
+    ++search.passes;
+    const LotLikelihood likelihood(settings, set, space, predictor, search.reference);
+    const DrawNumbers numbers(settings.seed, search.passes);
+    const DrawTable table = evaluate_pass(
+        {likelihood, search.next, numbers, draws, settings.draws_per_lot, threads});
+    search.predictions +=
+        draws * static_cast<std::uint64_t>(table.inner) * likelihood.shots();
+    const SpreadLevels& levels = likelihood.levels();
+    const double effective = DrawWeights(table, levels).effective_size();
+    search.reference = best_point(table, levels, space);
+    if (effective > search.most_effective) {
+        search.most_effective = effective;
+        search.proposal = search.next;
     }
-    return best;
+    const double scale = static_cast<double>(settings.draws) / static_cast<double>(draws);
+    search.is_done = search.passes == 1 && effective * scale >= 2 * enough_draws;
+    if (search.is_done) return;
+    const double power = largest_power(table, levels, wanted);
+    spdlog::info("pass {}: {:.0f} effective of {} draws, likelihood to the power {:.3g}",
+                 search.passes, effective, draws, power);
+    // One more pass after the first at full power sharpens the proposal.
+    search.is_done = search.is_full && power == 1;
+    if (search.is_done) return;
+    search.is_full = power == 1;
+    const DrawWeights weights(table, levels, power);
+    if (!std::isfinite(weights.log_weights().maxCoeff()))
+        throw NumericalError(
+            "no draw has a likelihood above zero: the predictions are "
+            "not finite or the priors exclude every measurement");
+    search.next = fit_proposal(table, weights, numbers);
+}
+
+}  // namespace
+
+Adaptation::Adaptation(const ParameterSpace& space)
+    : proposal(space),
+      reference(Eigen::VectorXd::Constant(static_cast<Eigen::Index>(space.size()), 0.5)),
+      next(space) {}
+
+void adapt(Adaptation& adaptation, const Settings& settings, const DataSet& set,
+           const ParameterSpace& space, const Predictor& predictor, int threads,
+           const std::function<void()>& after_pass) {
+    while (!adaptation.is_done) {
+        take_pass(adaptation, settings, set, space, predictor, threads);
+        adaptation.is_done |= adaptation.passes == most_passes;
+        after_pass();
+    }
 }
 
 }  // namespace taylorcal::calibrate

@@ -17,14 +17,16 @@ struct Pass {
     std::uint64_t draws = 0;
     std::uint64_t draws_per_lot = 1;
     int threads = 1;
+    std::uint64_t done = 0;  ///< draws before, of whole blocks
 };
 
 /// Evaluates a pass block by block: `work(table)` runs on several threads,
 /// `consume(result)` on one, in the order of the blocks. Memory holds a few blocks only,
 /// and the size of a block does not depend on the number of threads: hence the same bytes
-/// for any number.
-template <class Work, class Consume>
-void run_pass(const Pass& pass, const Work& work, const Consume& consume) {
+/// for any number. `after_batch()` is called whenever nothing waits to be consumed.
+template <class Work, class Consume, class AfterBatch>
+void run_pass(const Pass& pass, const Work& work, const Consume& consume,
+              const AfterBatch& after_batch) {
     using Result = decltype(work(std::declval<DrawTable>()));
     constexpr std::uint64_t points_per_block = 1024;
     constexpr std::uint64_t blocks_per_batch = 32;
@@ -33,7 +35,8 @@ void run_pass(const Pass& pass, const Work& work, const Consume& consume) {
     const std::uint64_t size = std::max<std::uint64_t>(points_per_block / inner, 1);
     const std::uint64_t blocks = (pass.draws + size - 1) / size;
     std::exception_ptr failure;
-    for (std::uint64_t start = 0; start < blocks; start += blocks_per_batch) {
+    for (std::uint64_t start = (pass.done + size - 1) / size; start < blocks;
+         start += blocks_per_batch) {
         const std::uint64_t count = std::min(blocks_per_batch, blocks - start);
         std::vector<Result> results(count);
 #pragma omp parallel for schedule(dynamic) num_threads(pass.threads)
@@ -50,6 +53,7 @@ void run_pass(const Pass& pass, const Work& work, const Consume& consume) {
         }
         if (failure) std::rethrow_exception(failure);
         for (Result& result : results) consume(std::move(result));
+        after_batch();
     }
 }
 

@@ -19,6 +19,30 @@ void DrawPool::add(std::vector<ChosenDraw> draws) {
     if (draws_.size() > 2 * capacity_ + 2) shrink();
 }
 
+std::vector<double> DrawPool::numbers() const {
+    std::vector<double> numbers;
+    for (const ChosenDraw& draw : draws_) {
+        numbers.insert(numbers.end(),
+                       {static_cast<double>(draw.number), draw.log_weight,
+                        draw.log_priority, static_cast<double>(draw.level)});
+        numbers.insert(numbers.end(), draw.unit.begin(), draw.unit.end());
+    }
+    return numbers;
+}
+
+void DrawPool::restore(const std::vector<double>& numbers, std::size_t dimensions) {
+    const std::size_t stride = 4 + dimensions;
+    std::vector<ChosenDraw> draws;
+    for (std::size_t at = 0; at + stride <= numbers.size(); at += stride) {
+        const double* line = numbers.data() + at;
+        draws.push_back({static_cast<std::uint64_t>(line[0]), line[1], line[2],
+                         Eigen::Map<const Eigen::VectorXd>(
+                             line + 4, static_cast<Eigen::Index>(dimensions)),
+                         static_cast<std::size_t>(line[3])});
+    }
+    add(std::move(draws));
+}
+
 void DrawPool::shrink() {
     if (draws_.size() <= capacity_ + 1) return;
     const auto last = draws_.begin() + static_cast<std::ptrdiff_t>(capacity_);

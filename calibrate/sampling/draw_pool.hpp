@@ -37,8 +37,10 @@ class DrawPool {
     void add(std::vector<ChosenDraw> draws);
     /// Whether a draw of this priority could stay: saves making those that cannot.
     bool may_stay(double log_priority) const { return log_priority >= threshold_; }
-    /// Everything held, to be added again to an empty pool of the same capacity.
-    const std::vector<ChosenDraw>& draws() const { return draws_; }
+    /// Everything held, draw after draw, to be restored in an empty pool of the same
+    /// capacity.
+    std::vector<double> numbers() const;
+    void restore(const std::vector<double>& numbers, std::size_t dimensions);
     /// The pool in the order of the draws' numbers.
     WeightedDraws weighted() const;
 

@@ -17,12 +17,18 @@ double t4_log_density(double z);
 /// likelihood's keep importance weights bounded.
 class HeavyTail {
   public:
+    /// Of no dimension, to be read into.
+    HeavyTail() = default;
     /// `root`: lower triangle, for instance the Cholesky factor of a covariance.
     HeavyTail(Eigen::VectorXd mean, Eigen::MatrixXd root);
     Eigen::VectorXd draw(const Eigen::VectorXd& uniforms) const;
     double log_density(const Eigen::VectorXd& point) const;
     HeavyTail moved_to(const Eigen::VectorXd& mean) const;
     const Eigen::VectorXd& mean() const { return mean_; }
+    template <class Numbers>
+    void visit(Numbers& numbers) {
+        numbers(mean_, root_, log_det_);
+    }
 
   private:
     Eigen::VectorXd mean_;
@@ -48,6 +54,10 @@ class Mixture {
     std::vector<double> responsibilities(const Eigen::VectorXd& point) const;
     bool is_prior() const { return parts_.empty(); }
     const std::vector<HeavyTail>& parts() const { return parts_; }
+    template <class Numbers>
+    void visit(Numbers& numbers) {
+        numbers(dimension_, prior_share_, weights_, parts_);
+    }
 
   private:
     Eigen::Index dimension_;

@@ -27,6 +27,10 @@ class LogSum {
     double value() const { return largest_ + std::log(sum_); }
     /// (sum w)^2 / sum w^2: how many equally weighted draws the weighted ones are worth.
     double effective_size() const { return sum_ > 0 ? sum_ * sum_ / sum_of_squares_ : 0; }
+    template <class Numbers>
+    void visit(Numbers& numbers) {
+        numbers(largest_, sum_, sum_of_squares_);
+    }
 
   private:
     void raise_to(double largest) {

@@ -18,6 +18,10 @@ class Proposal {
     struct Regression {
         Eigen::MatrixXd coefficients;
         HeavyTail bell;  ///< centred at zero
+        template <class Numbers>
+        void visit(Numbers& numbers) {
+            numbers(coefficients, bell);
+        }
     };
     /// 1, the differences, and their squares and products: ridges are curved.
     static Eigen::VectorXd features(const Eigen::VectorXd& difference);
@@ -32,6 +36,10 @@ class Proposal {
     /// The distribution of a lot's own parameters given the shared ones.
     Mixture own(std::size_t lot, const Eigen::VectorXd& shared) const;
     bool is_prior() const { return shared_.is_prior(); }
+    template <class Numbers>
+    void visit(Numbers& numbers) {
+        numbers(shared_, own_dimension_, regressions_, prior_share_);
+    }
 
   private:
     Mixture shared_;

@@ -1,9 +1,8 @@
 #include "calibrate/sampling/sample_posterior.hpp"
 
-#include "calibrate/sampling/adapt.hpp"
 #include "calibrate/sampling/block_pass.hpp"
 #include "calibrate/sampling/draw_weights.hpp"
-#include "calibrate/sampling/log_sum.hpp"
+#include "calibrate/sampling/sampling_state.hpp"
 #include "common/errors.hpp"
 
 #include <chrono>
@@ -73,26 +72,36 @@ BlockResult weigh(const DrawTable& table, const Pass& pass) {
 
 Posterior sample_posterior(const Settings& settings, const DataSet& set,
                            const ParameterSpace& space, const Predictor& predictor,
-                           int threads, const std::function<void(std::uint64_t)>& advance,
-                           const Eigen::VectorXd* reference) {
+                           const SamplingRun& run, const Eigen::VectorXd* reference) {
     const auto start = std::chrono::steady_clock::now();
-    const Adaptation adapted = adapt(settings, set, space, predictor, threads);
+    SamplingState state(space, pool_per_kept * settings.kept_draws);
+    state.load(run.checkpoint, settings.draws);
+    if (state.draws > 0 && run.advance) run.advance(state.draws);
+    const Adaptation& adapted = state.adaptation;
+    const std::uint64_t inner = space.per_lot_count() > 0 ? settings.draws_per_lot : 1;
+    const auto predictions = [&] {
+        return adapted.predictions + state.draws * inner * set.fitted().size();
+    };
+    const std::uint64_t resumed = predictions();
+    adapt(state.adaptation, settings, set, space, predictor, run.threads,
+          [&] { state.save(run.checkpoint, true); });
     const LotLikelihood likelihood(settings, set, space, predictor,
                                    reference ? *reference : adapted.reference);
     const Pass pass{
         likelihood,     adapted.proposal,       DrawNumbers(settings.seed, last_pass),
-        settings.draws, settings.draws_per_lot, threads};
-    LogSum weights;
-    DrawPool pool(pool_per_kept * settings.kept_draws);
+        settings.draws, settings.draws_per_lot, run.threads,
+        state.draws};
     run_pass(
         pass, [&pass](const DrawTable& table) { return weigh(table, pass); },
         [&](BlockResult block) {
-            weights.merge(block.weights);
-            pool.add(std::move(block.draws));
-            if (advance) advance(block.count);
-        });
+            state.weights.merge(block.weights);
+            state.pool.add(std::move(block.draws));
+            state.draws += block.count;
+            if (run.advance) run.advance(block.count);
+        },
+        [&] { state.save(run.checkpoint, state.draws == settings.draws); });
     Posterior posterior;
-    posterior.pool = pool.weighted();
+    posterior.pool = state.pool.weighted();
     if (posterior.pool.weights.size() == 0)
         throw NumericalError(
             "no draw of the last pass has a likelihood above zero; raise "
@@ -100,22 +109,21 @@ Posterior sample_posterior(const Settings& settings, const DataSet& set,
     posterior.kept =
         resample(posterior.pool, settings.kept_draws, pass.numbers(Purpose::start, 0));
     const auto draws = static_cast<double>(settings.draws);
-    posterior.effective_sample_size = weights.effective_size();
-    posterior.log_evidence = weights.value() - std::log(draws);
+    posterior.effective_sample_size = state.weights.effective_size();
+    posterior.log_evidence = state.weights.value() - std::log(draws);
     posterior.log_evidence_sd =
         std::sqrt(std::max(0.0, 1 / posterior.effective_sample_size - 1 / draws));
     posterior.draws = settings.draws;
-    posterior.draws_per_lot = space.per_lot_count() > 0 ? settings.draws_per_lot : 1;
-    posterior.predictions = adapted.predictions +
-                            settings.draws * posterior.draws_per_lot * likelihood.shots();
+    posterior.draws_per_lot = inner;
+    posterior.predictions = predictions();
     posterior.adaptations = adapted.passes;
     posterior.drawn_from_prior = adapted.proposal.is_prior();
     posterior.reference = likelihood.reference();
     const double seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    spdlog::info("{:.3g} shot predictions in {:.1f} s: {:.3g} a second",
-                 static_cast<double>(posterior.predictions), seconds,
-                 static_cast<double>(posterior.predictions) / seconds);
+    const auto made = static_cast<double>(posterior.predictions - resumed);
+    spdlog::info("{:.3g} shot predictions in {:.1f} s: {:.3g} a second", made, seconds,
+                 made / seconds);
     return posterior;
 }
 

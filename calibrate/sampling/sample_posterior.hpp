@@ -1,6 +1,7 @@
 #pragma once
 
 #include "calibrate/likelihood/lot_likelihood.hpp"
+#include "calibrate/sampling/checkpoint.hpp"
 #include "calibrate/sampling/draw_pool.hpp"
 
 #include <cstdint>
@@ -23,15 +24,23 @@ struct Posterior {
     Eigen::VectorXd reference;  ///< where df/dv was taken, unit cube
 };
 
+/// How a sampling is followed and saved.
+struct SamplingRun {
+    int threads = 1;
+    Checkpoint checkpoint = {};
+    std::function<void(std::uint64_t)> advance = {};  ///< told of draws as they are done
+};
+
 /// Samples the posterior: `adapt` finds a proposal, and the last pass draws afresh from
 /// it, so that the mean weight, the evidence, is unbiased. It streams: memory does not
-/// grow with the number of draws. The same bytes for any number of threads. `advance` is
-/// told of the draws of the last pass as they are done. `reference`: where df/dv is
-/// taken, if not at the best draw.
+/// grow with the number of draws. The same bytes for any number of threads. A saved state
+/// with the same key is taken up where it was and leads to the same bytes; the last state
+/// is saved too. A kill costs at most one pass of the search, or the last second of draws
+/// and those that the threads had in hand. `reference`: where df/dv is taken, if not at
+/// the best draw.
 Posterior sample_posterior(const Settings& settings, const DataSet& set,
                            const ParameterSpace& space, const Predictor& predictor,
-                           int threads,
-                           const std::function<void(std::uint64_t)>& advance = {},
+                           const SamplingRun& run,
                            const Eigen::VectorXd* reference = nullptr);
 
 }  // namespace taylorcal::calibrate

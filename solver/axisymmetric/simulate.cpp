@@ -10,6 +10,8 @@
 #include <cmath>
 #include <ctime>
 #include <limits>
+#include <optional>
+#include <string>
 
 #include <fmt/core.h>
 
@@ -62,23 +64,33 @@ class ShapeMean {
     int count_ = 0;
 };
 
+struct Ending {
+    impact::Status status;
+    std::string reason;
+};
+
 /// Why a run must end before its specimen has come to rest, or nothing.
-std::string limit_reached(const Body& body, double cpu_s) {
+std::optional<Ending> limit_reached(const Body& body, double cpu_s) {
+    using impact::Status;
     const impact::Numerics& numerics = body.numerics;
     if (body.time > numerics.stop_time_limit_s) {
-        return fmt::format("the rear still moved after {:.0f} us", 1e6 * body.time);
+        return Ending{
+            Status::not_stopped,
+            fmt::format("the rear still moved after {:.0f} us", 1e6 * body.time)};
     }
     if (body.steps >= numerics.step_limit ||
         body.cell_updates >= numerics.point_update_limit) {
-        return fmt::format("{} steps were not enough ({:.1f} us reached)", body.steps,
-                           1e6 * body.time);
+        return Ending{Status::not_stopped,
+                      fmt::format("{} steps were not enough ({:.1f} us reached)",
+                                  body.steps, 1e6 * body.time)};
     }
     if (cpu_s > numerics.cpu_limit_s) {
-        return fmt::format(
-            "{:.0f} s of processor time were not enough ({:.1f} us reached)", cpu_s,
-            1e6 * body.time);
+        return Ending{
+            Status::over_cpu_limit,
+            fmt::format("{:.0f} s of processor time were not enough ({:.1f} us reached)",
+                        cpu_s, 1e6 * body.time)};
     }
-    return {};
+    return std::nullopt;
 }
 
 void run(const impact::ImpactCase& impact_case, Body& body,
@@ -112,12 +124,13 @@ void run(const impact::ImpactCase& impact_case, Body& body,
             if (++samples == size_samples) break;
         }
         if (++cycles % cycles_between_clock_reads == 0) {
-            const std::string limit = limit_reached(body, thread_seconds() - begun);
+            const auto limit = limit_reached(body, thread_seconds() - begun);
+            if (!limit) continue;
             // A specimen that has stopped is measured, even when its ringing is cut
-            // short.
-            if (!limit.empty() && samples > 0) break;
-            result.reason = limit;
-            result.status = impact::Status::not_stopped;
+            // short, unless that depends on the machine.
+            if (samples > 0 && limit->status == impact::Status::not_stopped) break;
+            result.status = limit->status;
+            result.reason = limit->reason;
         }
     }
     if (result.reason.empty()) result.status = impact::Status::stopped;

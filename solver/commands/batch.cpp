@@ -3,7 +3,7 @@
 #include "common/errors.hpp"
 #include "common/program_code.hpp"
 #include "common/progress.hpp"
-#include "common/provenance.hpp"
+#include "common/sha256.hpp"
 #include "solver/commands/journal.hpp"
 #include "solver/commands/run_table.hpp"
 #include "solver/commands/solver_provenance.hpp"
@@ -54,8 +54,8 @@ nlohmann::json journal_header(const Design& design, const nlohmann::json& config
     }
     return {{"schema", "taylorcal/journal/1"},
             {"solver_code", program_code()},
-            {"configuration_digest", digest(configuration.dump())},
-            {"design_digest", digest(inputs)}};
+            {"configuration_digest", sha256(configuration.dump())},
+            {"design_digest", sha256(inputs)}};
 }
 
 /// Provenance of many runs: each has its own seed, in the table.

@@ -138,8 +138,8 @@ void run(RunOptions options) {
                options.json ? answer.dump(2) + "\n" : run_table(result, description));
     if (result.status == impact::Status::failed)
         throw NumericalError("the run failed: " + result.reason);
-    if (result.status == impact::Status::not_stopped)
-        spdlog::warn("the rear has not stopped: {}", result.reason);
+    if (result.status != impact::Status::stopped)
+        spdlog::warn("the run was cut short: {}", result.reason);
 }
 
 }  // namespace

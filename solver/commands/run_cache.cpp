@@ -125,9 +125,9 @@ std::optional<FinishedRun> RunCache::found(std::size_t row) const {
 }
 
 void RunCache::keep(std::size_t row, const FinishedRun& run) {
-    if (questions_.empty() || run.status == impact::Status::failed ||
-        run.reason.find("processor time") != std::string::npos ||
-        run.reason.find("cpu_limit_s") != std::string::npos)
+    using impact::Status;
+    if (questions_.empty() || run.status == Status::failed ||
+        run.status == Status::over_cpu_limit)
         return;
     FinishedRun unnumbered = run;
     unnumbered.run_id = 0;

@@ -39,6 +39,8 @@ std::string status_name(impact::Status status) {
             return "stopped";
         case impact::Status::not_stopped:
             return "not_stopped";
+        case impact::Status::over_cpu_limit:
+            return "over_cpu_limit";
         case impact::Status::failed:
             break;
     }

@@ -21,7 +21,7 @@ nlohmann::json run_json(const impact::ImpactResult& result,
 std::string run_table(const impact::ImpactResult& result,
                       const nlohmann::json& description);
 
-/// "stopped", "not_stopped" or "failed".
+/// "stopped", "not_stopped", "over_cpu_limit" or "failed".
 std::string status_name(impact::Status status);
 
 }  // namespace taylorcal::commands

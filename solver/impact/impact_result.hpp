@@ -11,7 +11,9 @@
 
 namespace taylorcal::impact {
 
-enum class Status { stopped, not_stopped, failed };  // 0, 1, 2 in the database
+/// How a run ended; 0, 1, 2, 3 in the database. `over_cpu_limit` was cut short after so
+/// much processor time, which another machine might not have needed.
+enum class Status { stopped, not_stopped, failed, over_cpu_limit };
 
 /// Extremes and integrals over a run that help to say where a model fails.
 struct Descriptors {

@@ -1,7 +1,7 @@
 #include "solver/material/network_equation_of_state.hpp"
 
 #include "common/errors.hpp"
-#include "common/provenance.hpp"
+#include "common/sha256.hpp"
 #include "emulator/inference/emulator.hpp"
 #include "solver/material/copper_md_network.hpp"
 
@@ -63,7 +63,7 @@ const ThermoTable& copper_md_table() {
 }
 
 std::string copper_md_digest() {
-    static const std::string hex = digest(copper_md_network());
+    static const std::string hex = sha256(copper_md_network());
     return hex;
 }
 

@@ -136,7 +136,8 @@ class Run {
         } else if (stop_time_ && body_.time() >= *stop_time_ + ringing_period_) {
             return end(Status::stopped, "");
         }
-        // A specimen that has stopped is measured, even when its ringing is cut short.
+        // A specimen that has stopped is measured, even when its ringing is cut short,
+        // unless that depends on the machine.
         const Status status = stop_time_ ? Status::stopped : Status::not_stopped;
         const auto limit = [&](const std::string& what, double value) {
             return end(status, stop_time_
@@ -153,7 +154,9 @@ class Run {
             return limit("step_limit", static_cast<double>(numerics.step_limit));
         }
         if (thread_cpu_seconds() - start_ > numerics.cpu_limit_s) {
-            return limit("cpu_limit_s", numerics.cpu_limit_s);
+            return end(Status::over_cpu_limit,
+                       fmt::format("cpu_limit_s of {:g} reached at {:.4g} us",
+                                   numerics.cpu_limit_s, body_.time() * 1e6));
         }
         return false;
     }

@@ -4,11 +4,12 @@ import subprocess
 import sys
 
 import pytest
-from tiny_study import STUDY
+from tiny_study import STUDY, STUDY_YAML, write_study
 
 from cost.model import RunCost, StudyCost, run_costs, study_cost
 from cost.schedule import makespan, schedule
 from cost.words import CORES, duration
+from study import read_study
 
 
 def test_costs_rise_with_the_velocity_and_spread_about_the_median():
@@ -23,6 +24,8 @@ def test_every_shape_has_a_cost_at_the_usual_settings():
     for geometry, fidelity in [
         ("axisymmetric", "coarse"),
         ("axisymmetric", "standard"),
+        ("axisymmetric", "fine"),
+        ("3d", "coarse"),
         ("3d", "standard"),
     ]:
         assert shapes == {s for g, f, s in run_costs() if (g, f) == (geometry, fidelity)}
@@ -55,6 +58,33 @@ def test_taylorcal_prints_the_table(fresh):
     assert "24 runs, axisymmetric, coarse" in done.stdout
     rows = [line.split() for line in done.stdout.splitlines() if line.strip()[:1].isdigit()]
     assert [int(row[0]) for row in rows[-len(CORES) :]] == CORES
+
+
+@pytest.mark.parametrize("options", [["--dry-run"], ["-n"], ["--dry-run", "--quiet", "rules"]])
+def test_a_dry_run_of_snakemake_ends_with_the_estimate(fresh, options):
+    told = fresh.run(*options).stdout
+    assert "rule sample" in told or "--quiet" in options
+    assert told.strip().splitlines()[-1].startswith("`chunks`")
+    assert f"{STUDY}: about" in told and "24 runs, axisymmetric, coarse" in told
+
+
+def test_a_run_of_snakemake_prints_no_estimate(fresh):
+    told = fresh.run(f"results/{STUDY}/design.h5")
+    assert told.returncode == 0 and "core-hours" not in told.stdout
+
+
+def test_taylorcal_prints_it_in_its_dry_run(fresh):
+    command = [sys.executable, "workflow/taylorcal", "calibrate", STUDY, "--dry-run"]
+    done = subprocess.run(command, cwd=fresh.folder, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.count(f"{STUDY}: about") == 1
+
+
+def test_further_parts_are_counted(tmp_path):
+    further = "  chunks: 2\n  further: [{ shapes: [truncated_cone], runs: 12 }]\n"
+    text = STUDY_YAML.replace("  chunks: 2\n", further)
+    cost = study_cost(read_study(write_study(tmp_path / STUDY, text) / "study.yaml"))
+    assert cost.shapes == ["uniform_cylinder"] * 24 + ["truncated_cone"] * 12
 
 
 def test_durations_read_well():

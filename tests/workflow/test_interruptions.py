@@ -1,6 +1,6 @@
 """A workflow that is killed, meets a full disk or damaged files, or is started twice.
 
-TAYLORCAL_KILLS=20 (`make kills`) runs 300 shots and kills their workflow 20 times.
+The heaviest, 300 runs whose workflow is killed 20 times, is in test_many_kills.py.
 """
 
 import os
@@ -12,34 +12,11 @@ import time
 
 import pytest
 from stage_commands import QUICK_RUNS, ended, stages
-from tiny_study import STUDY, STUDY_YAML, Workspace, make_workspace, write_study
+from tiny_study import STUDY, Workspace
+from workflow_kills import TARGET, kill, results_of, start
 
-KILLS = int(os.environ.get("TAYLORCAL_KILLS", "3"))
-RESULTS = ["database.h5", "emulator.json", "posterior.h5", "comparison.json"]
-TARGET = f"results/{STUDY}/comparison.json"
 WAIT_S = 120
 TAYLORCAL = [sys.executable, "workflow/taylorcal"]
-
-
-def results_of(workspace: Workspace) -> dict[str, bytes]:
-    return {name: (workspace.results / name).read_bytes() for name in RESULTS}
-
-
-def start(workspace: Workspace, *options: str) -> subprocess.Popen:
-    return subprocess.Popen(
-        workspace.command("--rerun-incomplete", *options),
-        cwd=workspace.folder,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-        start_new_session=True,
-    )
-
-
-def kill(process: subprocess.Popen) -> None:
-    """Ends the workflow and all its jobs as a lost machine does."""
-    os.killpg(process.pid, signal.SIGKILL)
-    process.communicate()
 
 
 def run_killing(workspace: Workspace, kills: int) -> int:
@@ -57,21 +34,11 @@ def run_killing(workspace: Workspace, kills: int) -> int:
     return done
 
 
-def test_a_workflow_killed_at_random_moments_gives_the_same_results(program, finished, fresh):
-    reference = finished
-    if KILLS > 3:
-        # So many runs that they last through all kills.
-        study = STUDY_YAML.replace("runs: 24", "runs: 300").replace("chunks: 2", "chunks: 6")
-        reference = make_workspace(fresh.folder.parent / "whole", fresh.folder / "build")
-        for workspace in (fresh, reference):
-            write_study(workspace.study, study)
-        assert reference.run(TARGET).returncode == 0
-    kills = run_killing(fresh, KILLS)
-    assert kills >= min(KILLS, 2)
+def test_a_workflow_killed_at_random_moments_gives_the_same_results(finished, fresh):
+    assert run_killing(fresh, 3) >= 2
     done = fresh.run("--rerun-incomplete", "--show-failed-logs", TARGET)
     assert done.returncode == 0, done.stdout
-    assert results_of(fresh) == results_of(reference)
-    print(f"{kills} kills; all results have the same bytes")
+    assert results_of(fresh) == results_of(finished)
 
 
 def wait_for(condition, what: str) -> None:

@@ -12,6 +12,7 @@ from stage_commands import QUICK_RUNS, Stage, ended, random_moments, stages
 KILLS = 20
 STAGES = ["runs", "merge", "train", "sample", "compare"]
 THREADS = 2
+LONG_DRAWS = 300_000
 
 
 def undisturbed(stage: Stage) -> tuple[bytes, float]:
@@ -90,5 +91,57 @@ def test_a_checkpoint_of_another_training_is_not_used(long_training, tmp_path):
     settings = json.loads((tmp_path / "train.json").read_text()) | {"epochs": 300}
     short = long_training.with_config(tmp_path / "train.json", settings)
     assert "is of another training and is not used" in ended(short.command).said
+    resumed = short.out.read_bytes()
+    assert undisturbed(short)[0] == resumed
+
+
+@pytest.fixture
+def long_sampling(program, finished, tmp_path):
+    """A sampling of some seconds."""
+    stage = stages(program, finished.results, tmp_path)["sample"]
+    settings = json.loads((finished.results / "config" / "calibrate.json").read_text())
+    return stage.with_config(tmp_path / "calibrate.json", settings | {"draws": LONG_DRAWS})
+
+
+def checkpoint_of_draws(stage):
+    """1.5 s after the first: the search for a proposal is over by then."""
+    path, begun = stage.out.with_name("posterior.h5.checkpoint"), []
+
+    def seen(seconds):
+        begun.extend([seconds] if path.exists() and not begun else [])
+        return begun and seconds > begun[0] + 1.5
+
+    return seen
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+def test_a_killed_sampling_goes_on_where_it_was(long_sampling, threads):
+    whole, _ = undisturbed(long_sampling)
+    undisturbed_cpu_s = ended(long_sampling.command).cpu_s
+    long_sampling.out.unlink()
+    command = list(long_sampling.command)
+    command[command.index("--threads") + 1] = str(threads)
+    attempts, done = [], [0]
+    for _ in range(2):
+        attempts.append(ended(command, checkpoint_of_draws(long_sampling)))
+        assert attempts[-1].killed and not long_sampling.out.exists()
+    attempts.append(ended(command))
+    for attempt in attempts[1:]:
+        told = re.search(rf"sampling goes on after (\d+) of {LONG_DRAWS} draws", attempt.said)
+        done.append(int(told[1]))
+    assert 0 < done[1] < done[2] < LONG_DRAWS
+    assert long_sampling.out.read_bytes() == whole
+    assert not list(long_sampling.out.parent.glob("*checkpoint*"))
+    wasted = sum(attempt.cpu_s for attempt in attempts) - undisturbed_cpu_s
+    print(f"2 kills wasted {wasted:.2f} CPU s beside the {undisturbed_cpu_s:.2f} that count")
+    a_second = 1 + 0.5  # between two checkpoints, and what starting anew costs
+    assert wasted <= 2 * THREADS * a_second
+
+
+def test_a_checkpoint_of_another_sampling_is_not_used(long_sampling, tmp_path):
+    assert ended(long_sampling.command, checkpoint_of_draws(long_sampling)).killed
+    settings = json.loads((tmp_path / "calibrate.json").read_text()) | {"draws": 2000}
+    short = long_sampling.with_config(tmp_path / "calibrate.json", settings)
+    assert "is of another sampling and is not used" in ended(short.command).said
     resumed = short.out.read_bytes()
     assert undisturbed(short)[0] == resumed

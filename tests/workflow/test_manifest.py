@@ -2,12 +2,19 @@
 
 import hashlib
 import json
+import platform
 import re
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 from tiny_study import STUDY, copy_workspace
+
+from crate.manifest import write_manifest
+from job_log import job_record
+from json_file import read_json
+from study import load_study
 
 
 @pytest.fixture(scope="module")
@@ -100,12 +107,73 @@ def test_each_result_leads_to_program_inputs_seed_and_cost(entities):
         assert {"version", "seed", "configuration", "processor", "compiler"} <= facts
 
 
+SMALL_DIAGNOSIS = """
+diagnosis:
+  points_per_shape: 4
+  candidates: [anvil_friction]
+  constants: []
+"""
+# Programs by the results that they make; the report and the page are drawn by scripts.
+MADE_BY = {
+    "database.h5": "solver",
+    "emulator.json": "emulator",
+    "posterior.h5": "calibrate",
+    "comparison.json": "calibrate",
+    "signatures.h5": "solver",
+    "diagnosis.json": "calibrate",
+    "next_experiment.json": "calibrate",
+    "report.html": "make_report.py",
+    "diagnosis.html": "make_diagnosis_page.py",
+}
+
+
+def test_each_result_has_its_machine_seconds_inputs_version_and_settings(
+    finished, tmp_path, monkeypatch
+):
+    workspace = copy_workspace(finished, tmp_path / "copy")
+    with (workspace.study / "study.yaml").open("a") as file:
+        file.write(SMALL_DIAGNOSIS)
+    done = workspace.run("--show-failed-logs", "all", f"results/{STUDY}/diagnosis.html")
+    assert done.returncode == 0, done.stdout
+    monkeypatch.chdir(workspace.folder)
+    study, results = Path("experiments") / STUDY, Path("results") / STUDY
+    graph = read_json(write_manifest(load_study(STUDY), study, results))
+    by_id = {entity["@id"]: entity for entity in graph["@graph"]}
+    jobs = of_type(by_id, "CreateAction")
+    for name, program in MADE_BY.items():
+        made = [job for job in jobs if {"@id": name} in job["result"]]
+        assert made, name
+        for job in made:
+            facts = {item["name"]: item["value"] for item in job["additionalProperty"]}
+            assert facts["machine"] == platform.node(), name
+            assert facts["wall seconds"] > 0 and facts["CPU seconds"] > 0, name
+            assert all(
+                re.fullmatch("[0-9a-f]{64}", by_id[i["@id"]]["sha256"]) for i in job["object"]
+            )
+        programs = {by_id[item["@id"]]["name"] for job in made for item in job["instrument"]}
+        assert programs == {f"taylorcal {program}"}
+        if name.endswith(".html"):
+            continue
+        facts = {item["name"] for item in by_id[name]["additionalProperty"]}
+        assert {"version", "seed", "configuration", "processor"} <= facts, name
+    runs = [job for job in jobs if job["name"] == "runs"]
+    assert len(runs) == 2, "the chunks' own costs are told beside that of joining them"
+
+
+def test_the_machine_is_in_no_result(finished):
+    """Same inputs, same bytes: it stands in the logs alone."""
+    assert job_record(finished.results / "logs" / "sample.log").host == platform.node()
+    for name in ("database.h5", "emulator.json", "posterior.h5", "comparison.json"):
+        assert f'"{platform.node()}"'.encode() not in (finished.results / name).read_bytes()
+
+
 def test_the_report_ends_with_digests_and_costs(finished):
     page = (finished.results / "report.html").read_text()
     end = page[page.index('<section id="provenance">') :]
     for name in ("database.h5", "emulator.json", "posterior.h5", "comparison.json"):
         assert hashlib.sha256((finished.results / name).read_bytes()).hexdigest() in end
     assert "made from measurements.csv" in end and "wall and CPU seconds" in end
+    assert "computed on" in end and platform.node() in end
 
 
 def test_a_study_without_results_is_refused(fresh):

@@ -2,6 +2,7 @@
 
 import os
 import subprocess
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -30,10 +31,10 @@ def batch(program, tmp_path):
     """Runs twelve rows from `first`; gives the database's bytes and what the solver said."""
     write_json(tmp_path / "solver.json", QUICK_RUNS)
 
-    def run(first: int, cache: str, seed: int = 1):
+    def run(first: int, cache: str, seed: int = 1, solver: str = program("solver")):
         write_design(tmp_path / "design.h5", columns(first, seed))
         out = tmp_path / "database.h5"
-        command = [program("solver"), "batch", tmp_path / "design.h5", "--out", out]
+        command = [solver, "batch", tmp_path / "design.h5", "--out", out]
         command += ["--config", tmp_path / "solver.json", "--threads", "2"]
         command += ["--cache", tmp_path / cache] if cache else []
         done = subprocess.run(command, capture_output=True, text=True)
@@ -54,6 +55,36 @@ def test_an_overlapping_design_reruns_only_the_difference(batch):
     assert "12 of 12 runs are in the cache" in said
     assert again == first
     assert "in the cache" not in batch(0, "cache", seed=2)[1]
+
+
+@pytest.fixture
+def other_solver(program, tmp_path):
+    """The solver as if built of other sources: the digest of its code is another."""
+    solver = Path(program("solver"))
+    told = subprocess.run([solver, "--version"], capture_output=True, text=True).stdout
+    code = told.split()[-1].encode()
+    content = solver.read_bytes()
+    assert content.count(code) == 1
+    other = tmp_path / "other_solver"
+    other.write_bytes(content.replace(code, b"0123456789abcdef"))
+    other.chmod(0o755)
+    told = subprocess.run([other, "--version"], capture_output=True, text=True).stdout
+    assert told.split()[-1] == "0123456789abcdef"
+    return str(other)
+
+
+def test_a_solver_of_other_sources_shares_no_run(batch, other_solver, tmp_path):
+    """Though its runs are the same here: nobody could know."""
+    first, said = batch(0, "cache")
+    assert "in the cache" not in said
+    again, said = batch(0, "cache", solver=other_solver)
+    assert "in the cache" not in said and f"{RUNS}/{RUNS} (100 %)" in said
+    assert len(list((tmp_path / "cache").rglob("*.json"))) == 2 * RUNS
+    for solver in ({}, {"solver": other_solver}):  # each finds its own again
+        assert f"{RUNS} of {RUNS} runs are in the cache" in batch(0, "cache", **solver)[1]
+    # What the other one kept alone the first does not find.
+    batch(RUNS, "cache", solver=other_solver)
+    assert "in the cache" not in batch(RUNS, "cache")[1]
 
 
 def test_another_simd_variant_does_not_share_runs(batch, monkeypatch):

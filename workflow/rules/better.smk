@@ -28,8 +28,10 @@ rule better_runs:
         rows=better_rows_of_chunk,
     threads: workflow.cores
     shell:
-        "{input.program} batch {input.design} --config {input.settings} --out {output}"
-        " --rows {params.rows} --threads {threads} > {log} 2>&1"
+        logged(
+            "{input.program} batch {input.design} --config {input.settings} --out {output}"
+            " --rows {params.rows} --threads {threads}"
+        )
 
 
 # A revision takes those of the base, with an amplitude of 0.
@@ -45,4 +47,6 @@ rule better:
         code=code_of("solver"),
         effects=zero_inputs_of,
     shell:
-        "{input.program} merge {input.runs} {params.effects} --out {output} > {log} 2>&1"
+        logged(
+            "{input.program} merge {input.runs} {params.effects} --out {output}"
+        )

@@ -9,6 +9,7 @@ from snakemake.utils import min_version
 sys.path.insert(0, str(Path(workflow.basedir) / "workflow" / "scripts"))
 
 from code_digest import code_of
+from cost.dry_run import tell_cost_in_dry_run
 from effects import check_effects, solver_list
 from input_errors import InputError
 from measurements import check_against_study, read_measurements
@@ -16,7 +17,8 @@ from outlines.table import check_outlines
 from revisions import HOME, homes_of, previous_home, split_home
 from run_cache import use_run_cache
 from study import EXPERIMENTS, STAGE_SETTINGS, at_revision, better_design_settings
-from study import chunk_count, design_settings, load_study, new_runs, uses_outlines
+from study import chunk_count, design_settings, further_design_settings, load_study, new_runs
+from study import uses_outlines
 
 min_version("7.21")
 
@@ -29,6 +31,7 @@ wildcard_constraints:
     study=HOME,
     name="[A-Za-z0-9_]+",
     chunk="[0-9]+",
+    part="[0-9]+",
     stage="|".join(STAGE_SETTINGS),
 
 
@@ -59,6 +62,17 @@ def python_script(name):
     is named outright counts as changed whenever a checkout wrote it anew.
     """
     return {"script": name, "code": code_of(name)}
+
+
+def logged(command):
+    """A rule's command with all that it says in its log, between the machine's name and what
+    the job took: see `job_log`.
+    """
+    return (
+        "( echo host $(uname -n); TIMEFORMAT='took %R s, %U s user, %S s system'; time "
+        + command
+        + " ) > {log} 2>&1"
+    )
 
 
 def homes_of_study(name):
@@ -149,8 +163,20 @@ def share_of_chunk(runs, chunks, wildcards):
 
 
 def chunks_of(wildcards):
-    chunks = range(chunk_count(study_of(wildcards.study)))
-    return expand("results/{study}/chunks/{chunk}.h5", chunk=chunks, study=wildcards.study)
+    """Those of the home, and in the base the further parts, which revisions take from there."""
+    study = study_of(wildcards.study)
+    folder = f"results/{wildcards.study}"
+    chunks = [f"{folder}/chunks/{chunk}.h5" for chunk in range(chunk_count(study))]
+    further = range(0 if study["revision"] else len(study["database"]["further"]))
+    return chunks + [f"{folder}/further_chunks/{part}.h5" for part in further]
+
+
+def further_design_settings_of(wildcards):
+    return further_design_settings(study_of(wildcards.study), int(wildcards.part))
+
+
+def rows_of_part(wildcards):
+    return f"0:{study_of(wildcards.study)['database']['further'][int(wildcards.part)]['runs']}"
 
 
 def better_chunk_count(wildcards):
@@ -189,4 +215,4 @@ def benchmarks_of(wildcards):
     return f"results/{wildcards.study}/benchmarks"
 
 
-study_of(config["study"])
+tell_cost_in_dry_run(config["study"], study_of(config["study"]), sys.argv[1:])

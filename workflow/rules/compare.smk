@@ -14,5 +14,7 @@ rule compare:
     params:
         code=code_of("calibrate"),
     shell:
-        "{input.program} compare --posterior {input.posterior} --emulator {input.emulator}"
-        " --measurements {input.measurements} --config {input.settings} --out {output} > {log} 2>&1"
+        logged(
+            "{input.program} compare --posterior {input.posterior} --emulator {input.emulator}"
+            " --measurements {input.measurements} --config {input.settings} --out {output}"
+        )

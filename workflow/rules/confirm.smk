@@ -30,8 +30,10 @@ rule confirmation_runs:
         code=code_of("solver"),
     threads: workflow.cores
     shell:
-        "{input.program} batch {input.design} --config {input.settings} --out {output}"
-        " --threads {threads} > {log} 2>&1"
+        logged(
+            "{input.program} batch {input.design} --config {input.settings} --out {output}"
+            " --threads {threads}"
+        )
 
 
 rule confirm:

@@ -46,8 +46,10 @@ rule signature_runs:
         rows=signature_rows_of_chunk,
     threads: workflow.cores
     shell:
-        "{input.program} batch {input.design} --config {input.settings} --out {output}"
-        " --rows {params.rows} --threads {threads} > {log} 2>&1"
+        logged(
+            "{input.program} batch {input.design} --config {input.settings} --out {output}"
+            " --rows {params.rows} --threads {threads}"
+        )
 
 
 rule signatures:
@@ -61,7 +63,9 @@ rule signatures:
     params:
         code=code_of("solver"),
     shell:
-        "{input.program} merge {input.chunks} --out {output} > {log} 2>&1"
+        logged(
+            "{input.program} merge {input.chunks} --out {output}"
+        )
 
 
 rule signatures_finer:
@@ -79,8 +83,10 @@ rule signatures_finer:
         code=code_of("solver"),
     threads: workflow.cores
     shell:
-        "{input.program} batch {input.design} --config {input.settings} --out {output}"
-        " --threads {threads} > {log} 2>&1"
+        logged(
+            "{input.program} batch {input.design} --config {input.settings} --out {output}"
+            " --threads {threads}"
+        )
 
 
 rule diagnose:
@@ -104,10 +110,12 @@ rule diagnose:
         finer=lambda wildcards, input: f"--finer {input.finer}" if input.finer else "",
     threads: workflow.cores
     shell:
-        "{input.program} diagnose --emulator {input.emulator} --measurements {input.measurements}"
-        " --config {input.settings} --posterior {input.posterior}"
-        " --signatures {input.signatures} {params.finer} --candidates {input.candidates}"
-        " --out {output} --threads {threads} > {log} 2>&1"
+        logged(
+            "{input.program} diagnose --emulator {input.emulator} --measurements {input.measurements}"
+            " --config {input.settings} --posterior {input.posterior}"
+            " --signatures {input.signatures} {params.finer} --candidates {input.candidates}"
+            " --out {output} --threads {threads}"
+        )
 
 
 rule next_experiment:
@@ -131,7 +139,9 @@ rule next_experiment:
         code=code_of("calibrate"),
         finer=lambda wildcards, input: f"--finer {input.finer}" if input.finer else "",
     shell:
-        "{input.program} design --diagnosis {input.diagnosis} --emulator {input.emulator}"
-        " --measurements {input.measurements} --config {input.settings}"
-        " --posterior {input.posterior} --signatures {input.signatures} {params.finer}"
-        " --candidates {input.candidates} --out {output} > {log} 2>&1"
+        logged(
+            "{input.program} design --diagnosis {input.diagnosis} --emulator {input.emulator}"
+            " --measurements {input.measurements} --config {input.settings}"
+            " --posterior {input.posterior} --signatures {input.signatures} {params.finer}"
+            " --candidates {input.candidates} --out {output}"
+        )

@@ -17,6 +17,8 @@ rule train:
         start=lambda wildcards, input: f"--from {input.previous}" if input.previous else "",
     threads: workflow.cores
     shell:
-        "{input.program} train {input.database} --config {input.settings} {params.better}"
-        " {params.start}"
-        " --out {output} --threads {threads} > {log} 2>&1"
+        logged(
+            "{input.program} train {input.database} --config {input.settings} {params.better}"
+            " {params.start}"
+            " --out {output} --threads {threads}"
+        )

@@ -17,8 +17,10 @@ rule runs:
         rows=rows_of_chunk,
     threads: workflow.cores
     shell:
-        "{input.program} batch {input.design} --config {input.settings} --out {output}"
-        " --rows {params.rows} --threads {threads} > {log} 2>&1"
+        logged(
+            "{input.program} batch {input.design} --config {input.settings} --out {output}"
+            " --rows {params.rows} --threads {threads}"
+        )
 
 
 rule merge:
@@ -37,5 +39,6 @@ rule merge:
         # The runs of the revision before have no column of the effect: its amplitude is 0.
         effects=zero_inputs_of,
     shell:
-        "{input.program} merge {input.previous} {input.chunks} {params.effects} --out {output}"
-        " > {log} 2>&1"
+        logged(
+            "{input.program} merge {input.previous} {input.chunks} {params.effects} --out {output}"
+        )

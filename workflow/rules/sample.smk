@@ -14,5 +14,7 @@ rule sample:
         code=code_of("calibrate"),
     threads: workflow.cores
     shell:
-        "{input.program} sample --emulator {input.emulator} --measurements {input.measurements}"
-        " --config {input.settings} --out {output} --threads {threads} > {log} 2>&1"
+        logged(
+            "{input.program} sample --emulator {input.emulator} --measurements {input.measurements}"
+            " --config {input.settings} --out {output} --threads {threads}"
+        )

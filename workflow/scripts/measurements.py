@@ -7,7 +7,7 @@ from pathlib import Path
 
 from input_errors import InputError
 from schema_check import fill_defaults, findings, load_schema
-from study import DESIGN_RANGES, OUTLINE_SCORES
+from study import DESIGN_RANGES, OUTLINE_SCORES, database_parts
 
 SEPARATORS = {",": "comma", ";": "semicolon", "\t": "tab"}
 FAR_OFF = 5  # standard errors from which a size is a slip of the pen
@@ -68,17 +68,24 @@ def beyond_database(row: dict, study: dict) -> list[str]:
     """What of a row in use lies where the database will have no runs, and the remedy."""
     if row["use"] == "ignore":
         return []
+    problems = [_beyond_part(row, part) for part in database_parts(study)]
+    return [] if [] in problems else problems[0]
+
+
+def _beyond_part(row: dict, part: dict) -> list[str]:
     found = []
-    if row["shape"] not in study["database"]["shapes"]:
-        found.append(f"shape {row['shape']!r} is not in database.shapes.")
+    if row["shape"] not in part["shapes"]:
+        found.append(
+            f"shape {row['shape']!r} is not in database.shapes. Add runs of it to database.further."
+        )
     values = {**row, "length_to_diameter": row["initial_length_mm"] / row["initial_diameter_mm"]}
     for key in DESIGN_RANGES:
-        lowest, highest = study["database"][key]
+        lowest, highest = part[key]
         slack = 1e-9 * highest
         if not lowest - slack <= values[key] <= highest + slack:
             found.append(
-                f"{key} = {values[key]:g} is outside the database ({lowest:g} to {highest:g}). "
-                f"Widen database.{key} in study.yaml or set `use` to ignore."
+                f"{key} = {values[key]:g} is outside the database ({lowest:g} to {highest:g}). Add "
+                f"runs there to database.further, widen database.{key}, or set `use` to ignore."
             )
     return found
 

@@ -17,6 +17,8 @@ LENGTH = ["initial_diameter_mm", "length_to_diameter"]
 DIAMETER = ["initial_diameter_mm"]
 FIDELITIES = ["coarse", "standard", "fine"]
 FIRST_BETTER_RUN = 100_000_000  # beyond those of any revision: no number is used twice
+FIRST_FURTHER_RUN = 50_000_000  # and a million for each part: see the schema
+RUNS_OF_A_PART = 1_000_000
 OUTLINE_SCORES = [f"outline_pc_{k}" for k in range(1, 5)]  # of principal components, in mm
 
 
@@ -61,11 +63,17 @@ def _placed(path: Path, lines: dict, key: tuple, problem: str) -> str:
 def _contradictions(study: dict) -> list[tuple[tuple, str]]:
     """What a schema cannot say: values that do not fit each other."""
     found = []
-    for key in DESIGN_RANGES:
-        lowest, highest = study["database"][key]
-        if lowest > highest:
-            problem = f"= [{lowest}, {highest}] (expected the lowest value first)."
-            found.append((("database", key), problem))
+    parts = [((), study["database"])]
+    parts += [(("further", n), part) for n, part in enumerate(study["database"]["further"])]
+    for place, part in parts:
+        for key in set(DESIGN_RANGES) & set(part):
+            lowest, highest = part[key]
+            if lowest > highest:
+                problem = f"= [{lowest}, {highest}] (expected the lowest value first)."
+                found.append((("database", *place, key), problem))
+    if study["database"]["further"] and study["database"]["better"]:
+        problem = "has no runs of the better solver. Widen the ranges of the database itself."
+        found.append((("database", "further"), problem))
     for name, parameter in study["parameters"].items():
         key = ("parameters", name)
         if parameter["lower"] >= parameter["upper"]:
@@ -117,6 +125,17 @@ def uses_outlines(study: dict) -> bool:
     return any(size in OUTLINE_SCORES for size in study["emulator"]["outputs"])
 
 
+def database_parts(study: dict) -> list[dict]:
+    """Shapes and ranges that the database covers: its own, then those of each further part."""
+    database = study["database"]
+    own = {key: database[key] for key in ("shapes", *DESIGN_RANGES)}
+    return [own] + [{key: part.get(key, own[key]) for key in own} for part in database["further"]]
+
+
+def all_shapes(study: dict) -> list[str]:
+    return list(dict.fromkeys(s for part in database_parts(study) for s in part["shapes"]))
+
+
 def design_settings(study: dict) -> dict:
     """What the design of the database depends on."""
     database = study["database"]
@@ -128,6 +147,11 @@ def design_settings(study: dict) -> dict:
     settings |= {"runs": new_runs(study), "parameters": parameters}
     settings["ranges"] = {key: database[key] for key in DESIGN_RANGES}
     if study["revision"]:
+        parts = database_parts(study)
+        settings["shapes"] = all_shapes(study)
+        for key in DESIGN_RANGES:
+            limits = [limit for part in parts for limit in part[key]]
+            settings["ranges"][key] = [min(limits), max(limits)]
         earlier = len(study["revision"]) - 1
         settings["first_run"] = database["runs"] + earlier * database["runs_per_effect"]
         settings["effects"] = {
@@ -141,6 +165,15 @@ def better_design_settings(study: dict) -> dict:
     """The same for the runs of the better solver, which has no runs of an effect."""
     settings = design_settings(at_revision(study, []))
     return {**settings, "runs": study["database"]["better"]["runs"], "first_run": FIRST_BETTER_RUN}
+
+
+def further_design_settings(study: dict, part: int) -> dict:
+    """The same for a further part of the database, which revisions take from the base."""
+    settings = design_settings(at_revision(study, []))
+    covered = database_parts(study)[1 + part]
+    settings |= {"shapes": covered.pop("shapes"), "ranges": covered}
+    settings["runs"] = study["database"]["further"][part]["runs"]
+    return {**settings, "first_run": FIRST_FURTHER_RUN + part * RUNS_OF_A_PART}
 
 
 def covered_range(name: str, study: dict) -> dict:
@@ -195,7 +228,7 @@ def train_settings(study: dict) -> dict:
         {"name": size, "divide_by": DIAMETER if is_radial(size) else LENGTH}
         for size in settings.pop("outputs")
     ]
-    category = "shape" if len(study["database"]["shapes"]) > 1 else None
+    category = "shape" if len(all_shapes(study)) > 1 else None
     return {"inputs": inputs, "category": category, "outputs": outputs, **settings}
 
 

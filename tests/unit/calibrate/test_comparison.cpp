@@ -57,7 +57,7 @@ struct LineCase {
 
     PosteriorResult sample(const ParameterSpace& space, int threads) const {
         PosteriorResult result;
-        result.posterior = sample_posterior(settings, set, space, model, threads);
+        result.posterior = sample_posterior(settings, set, space, model, {threads});
         const LotLikelihood likelihood(settings, set, space, model,
                                        result.posterior.reference);
         result.maps = make_maps(result.posterior.pool, space, likelihood.levels());

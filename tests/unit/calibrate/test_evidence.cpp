@@ -110,7 +110,7 @@ TEST_CASE("a linear model with Gaussian errors gives its exact evidence and mome
     const LinearCase c = linear_case(sd, per_lot);
     const ParameterSpace space(c.settings.parameters, c.set.lots);
     const Exact exact = exact_posterior(c, space);
-    const Posterior posterior = sample_posterior(c.settings, c.set, space, c.model, 1);
+    const Posterior posterior = sample_posterior(c.settings, c.set, space, c.model, {1});
 
     CAPTURE(posterior.effective_sample_size, posterior.adaptations);
     REQUIRE(posterior.effective_sample_size > enough_draws);
@@ -146,7 +146,8 @@ TEST_CASE("the nested estimate of the evidence is unbiased", "[evidence]") {
     for (int seed = 0; seed < seeds; ++seed) {
         c.settings.seed = static_cast<std::uint64_t>(seed);
         const double ratio = std::exp(
-            sample_posterior(c.settings, c.set, space, c.model, 1).log_evidence - exact);
+            sample_posterior(c.settings, c.set, space, c.model, {1}).log_evidence -
+            exact);
         sum += ratio;
         squares += ratio * ratio;
     }
@@ -171,7 +172,7 @@ TEST_CASE("a broad posterior is drawn from the prior alone", "[evidence]") {
     const DataSet set = make_data_set(
         {toys::shot("a", "one", 150, {{"final_length_mm", y, sd}})}, settings.fit_sizes);
     const ParameterSpace space(settings.parameters, set.lots);
-    const Posterior posterior = sample_posterior(settings, set, space, model, 1);
+    const Posterior posterior = sample_posterior(settings, set, space, model, {1});
     const double root2 = std::sqrt(2.0);
     const double exact =
         std::log(0.05 * (std::erf((10 - y) / sd / root2) + std::erf(y / sd / root2)));

@@ -55,7 +55,7 @@ struct BimodalCase {
 TEST_CASE("both modes of a two-valued model are found with their shares", "[modes]") {
     const BimodalCase c;
     const ParameterSpace space(c.settings.parameters, c.set.lots);
-    const Posterior posterior = sample_posterior(c.settings, c.set, space, c.model, 1);
+    const Posterior posterior = sample_posterior(c.settings, c.set, space, c.model, {1});
     double below = 0;
     for (Eigen::Index i = 0; i < posterior.pool.weights.size(); ++i)
         if (posterior.pool.units(i, 0) < 0.4) below += posterior.pool.weights(i);
@@ -79,7 +79,7 @@ TEST_CASE("both modes of a two-valued model are found with their shares", "[mode
 TEST_CASE("maps are densities over their edges", "[modes]") {
     const BimodalCase c;
     const ParameterSpace space(c.settings.parameters, c.set.lots);
-    const Posterior posterior = sample_posterior(c.settings, c.set, space, c.model, 1);
+    const Posterior posterior = sample_posterior(c.settings, c.set, space, c.model, {1});
     const Maps maps = make_maps(posterior.pool, space, spread_levels(c.settings));
     REQUIRE(maps.single.size() == 2);
     REQUIRE(maps.pairs.size() == 1);
@@ -126,7 +126,7 @@ TEST_CASE("the refined maximum of a lot's parameters averages over them", "[mode
                     {{"final_length_mm", 10.5, sd}, {"impact_diameter_mm", 10, 0.05}})},
         settings.fit_sizes);
     const ParameterSpace space(settings.parameters, set.lots);
-    const Posterior posterior = sample_posterior(settings, set, space, model, 1);
+    const Posterior posterior = sample_posterior(settings, set, space, model, {1});
     const LotLikelihood likelihood(settings, set, space, model, posterior.reference);
     const auto maxima = find_maxima(likelihood, posterior.kept, posterior.log_evidence);
     double best = 0, height = -1e9;

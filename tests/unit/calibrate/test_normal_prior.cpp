@@ -75,7 +75,7 @@ TEST_CASE("a normal prior enters the posterior and the evidence", "[prior]") {
     const DataSet set = make_data_set(
         {toys::shot("a", "one", 150, {{"final_length_mm", y, sd}})}, settings.fit_sizes);
     const ParameterSpace space(settings.parameters, set.lots);
-    const Posterior posterior = sample_posterior(settings, set, space, model, 1);
+    const Posterior posterior = sample_posterior(settings, set, space, model, {1});
 
     const double both = scale * scale + sd * sd;
     const double mean = y * scale * scale / both, spread = scale * sd / std::sqrt(both);

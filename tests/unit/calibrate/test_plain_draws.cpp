@@ -370,7 +370,7 @@ TEST_CASE("the paper's likelihood needs one misfit for all its levels", "[plain]
     Settings adapted = problem.settings;
     adapted.draws_from = DrawsFrom::adapted;
     adapted.draws = 20000;
-    const Posterior other = sample_posterior(adapted, problem.set, space, predictor, 1);
+    const Posterior other = sample_posterior(adapted, problem.set, space, predictor, {1});
     CHECK(found.dropping.mass_bound < 2e-6);
     CHECK(std::abs(found.posterior.log_evidence - other.log_evidence) <
           4 * std::hypot(found.posterior.log_evidence_sd, other.log_evidence_sd));

@@ -128,7 +128,7 @@ Eigen::VectorXd uniformity(const Settings& told) {
         const SimulatedTable table = simulate(number, truth, predictor);
         const ParameterSpace space(told.parameters, table.set.lots);
         const Posterior posterior =
-            sample_posterior(told, table.set, space, predictor, 1);
+            sample_posterior(told, table.set, space, predictor, {1});
         const Eigen::VectorXd rank = ranks(table, posterior, number);
 #pragma omp critical(simulated_tables)
         for (Eigen::Index j = 0; j <= parameters; ++j)

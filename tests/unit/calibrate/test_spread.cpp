@@ -35,7 +35,7 @@ Posterior calibrate_line(double extra, Settings& settings) {
     }
     const DataSet set = make_data_set(shots, settings.fit_sizes);
     const ParameterSpace space(settings.parameters, set.lots);
-    return sample_posterior(settings, set, space, model, 1);
+    return sample_posterior(settings, set, space, model, {1});
 }
 
 double mean_spread(const Posterior& posterior, const SpreadLevels& levels) {

@@ -102,12 +102,12 @@ TEST_CASE("runs that failed or met the limit on processor time are not kept", "[
     RunCache cache(batch.folder / "cache", batch.design, batch.configuration);
     cache.keep(0, failed_row(batch.design.run_id[0], "tangled cells"));
     FinishedRun given_up = row_of(batch.design.run_id[1], quick_answer(batch.cases[1]));
-    given_up.status = impact::Status::not_stopped;
-    given_up.reason = "3600 s of processor time were not enough (80 us reached)";
+    given_up.status = impact::Status::over_cpu_limit;
     cache.keep(1, given_up);
     CHECK_FALSE(cache.found(0));
     CHECK_FALSE(cache.found(1));
-    given_up.reason = "400000 steps were not enough";
+    given_up.status = impact::Status::not_stopped;
+    given_up.reason = "400000 steps, more than 3600 s of processor time";
     cache.keep(1, given_up);
     REQUIRE(cache.found(1));
     CHECK(cache.found(1)->run_id == batch.design.run_id[1]);

@@ -127,5 +127,5 @@ TEST_CASE("states beyond the data go on smoothly or are refused", "[eos]") {
 }
 
 TEST_CASE("the network's digest tells that it is another", "[eos]") {
-    CHECK(copper_md_digest().size() == 16);
+    CHECK(copper_md_digest().size() == 64);
 }

@@ -13,9 +13,11 @@ from sample_runs import PARAMETERS, command_of
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 
-STATUSES = ["stopped", "not_stopped", "failed"]  # 0, 1, 2
+STATUSES = ["stopped", "not_stopped", "failed", "over_cpu_limit"]  # 0, 1, 2, 3
 MARKS = {"stopped": ("o", "C0"), "not_stopped": ("s", "C1"), "failed": ("X", "C3")}
+MARKS["over_cpu_limit"] = ("^", "C4")
 WORDS = {"stopped": "stopped", "not_stopped": "not stopped", "failed": "failed"}
+WORDS["over_cpu_limit"] = "over its limit of processor time"
 NUMBER = re.compile(r"\d[\d.]*(?:e[-+]?\d+)?")
 
 

@@ -1,6 +1,5 @@
 """What made each result, as Snakemake noted it and as the result's own provenance says."""
 
-import csv
 import json
 from dataclasses import dataclass
 from datetime import datetime, timezone
@@ -9,6 +8,7 @@ from pathlib import Path
 import h5py
 
 from code_digest import NOTE
+from job_log import JobRecord, job_record
 from json_file import read_json
 from why.records import record_of
 
@@ -24,8 +24,7 @@ class Action:
     outputs: list[str]
     start: str
     end: str
-    wall_s: float | None
-    cpu_s: float | None
+    job: JobRecord  # where, and what it cost
 
 
 def actions_of(files: list[str]) -> list[Action]:
@@ -45,7 +44,7 @@ def actions_of(files: list[str]) -> list[Action]:
 
 def _action(file: str, record: dict) -> Action:
     notes = [NOTE.fullmatch(text.strip("'")) for text in record["params"]]
-    wall_s, cpu_s = _benchmark(record["log"])
+    job = job_record(Path(record["log"][0]))
     return Action(
         rule=record["rule"],
         command=record["shellcmd"] or f"workflow/scripts, rule {record['rule']}",
@@ -54,29 +53,12 @@ def _action(file: str, record: dict) -> Action:
         outputs=[file],
         start=_time(record["starttime"]),
         end=_time(record["endtime"]),
-        wall_s=wall_s,
-        cpu_s=cpu_s,
+        job=job,
     )
 
 
 def _time(seconds: float) -> str:
     return datetime.fromtimestamp(seconds, timezone.utc).isoformat(timespec="seconds")
-
-
-def _benchmark(logs: list[str]) -> tuple[float | None, float | None]:
-    """Wall and CPU seconds; the benchmark is named as the log."""
-    for log in map(Path, logs):
-        path = log.parent.parent / "benchmarks" / f"{log.stem}.tsv"
-        if path.exists():
-            with path.open(newline="") as file:
-                row = list(csv.DictReader(file, delimiter="\t"))[-1]
-            return _number(row["s"]), _number(row["cpu_time"])
-    return None, None
-
-
-def _number(text: str) -> float | None:
-    """Snakemake writes NA or - for jobs too short to be sampled."""
-    return None if text in ("NA", "-", "") else float(text)
 
 
 def provenance_in(path: Path) -> dict:

@@ -17,7 +17,14 @@ NAME = "ro-crate-metadata.json"
 CONTEXT = "https://w3id.org/ro/crate/1.1/context"
 PROFILE = "https://w3id.org/ro/crate/1.1"
 STUDY_FOLDER = "study"  # copies of study.yaml, the table and outlines, inside the crate
-LEFT_OUT = {"logs", "chunks", "better_chunks", "signature_chunks"}
+# Runs in chunks are left out: the crate has the database that they were joined to.
+JOINED = {
+    "chunks": "database.h5",
+    "further_chunks": "database.h5",
+    "better_chunks": "better.h5",
+    "signature_chunks": "signatures.h5",
+}
+LEFT_OUT = {"logs", *JOINED}
 MEDIA_TYPES = {
     ".h5": "application/x-hdf5",
     ".yaml": "application/yaml",
@@ -43,9 +50,20 @@ def _belongs(path: Path, results: Path) -> bool:
     return path.is_file() and path.name != NAME and not waste and not LEFT_OUT & set(inside.parts)
 
 
+def _chunks(results: Path) -> list[tuple[Path, Path]]:
+    """Each chunk of runs, and the database that it was joined to."""
+    return [
+        (chunk, folder.parent / JOINED[folder.name])
+        for folder in sorted(results.rglob("*chunks"))
+        if folder.name in JOINED
+        for chunk in sorted(folder.glob("*.h5"))
+    ]
+
+
 def graph(study: dict, experiments: Path, results: Path, files: list[Path]) -> list[dict]:
-    actions = actions_of([str(path) for path in files])
     names = {str(path): path.relative_to(results).as_posix() for path in files}
+    names |= {str(path): names[str(whole)] for path, whole in _chunks(results) if whole in files}
+    actions = actions_of(list(names))
     # The study's own files count as their copies.
     for path in experiments.rglob("*"):
         names[str(path)] = f"{STUDY_FOLDER}/{path.relative_to(experiments).as_posix()}"
@@ -109,6 +127,8 @@ def _software(actions: list[Action]) -> list[dict]:
 
 
 def _job(number: int, action: Action, names: dict[str, str]) -> dict:
+    results = dict.fromkeys(names[file] for file in action.outputs)
+    read = dict.fromkeys(names[file] for file in action.inputs if file in names)
     entity = {
         "@id": f"#job-{number}-{action.rule}",
         "@type": "CreateAction",
@@ -117,13 +137,16 @@ def _job(number: int, action: Action, names: dict[str, str]) -> dict:
         "startTime": action.start,
         "endTime": action.end,
         "instrument": [{"@id": _software_id(*item)} for item in action.code.items()],
-        "object": [{"@id": names[file]} for file in action.inputs if file in names],
-        "result": [{"@id": names[file]} for file in action.outputs],
+        "object": [{"@id": name} for name in read if name not in results],
+        "result": [{"@id": name} for name in results],
     }
-    costs = {"wall seconds": action.wall_s, "CPU seconds": action.cpu_s}
+    costs = {"wall seconds": action.job.wall_s, "CPU seconds": action.job.cpu_s}
     entity["additionalProperty"] = [
         {"@type": "PropertyValue", "name": name, "value": value, "unitCode": "SEC"}
         for name, value in costs.items()
         if value is not None
     ]
+    if action.job.host:
+        machine = {"@type": "PropertyValue", "name": "machine", "value": action.job.host}
+        entity["additionalProperty"].append(machine)
     return entity

@@ -69,7 +69,10 @@ def examine(name: str, source: Path) -> Addition:
         beyond = beyond_database(row, study)
         if beyond:
             runs = study["database"]["runs"]
-            remarks.append(f"a wider database is computed anew: {runs} runs of the solver")
+            remarks.append(
+                "runs in `database.further` are computed beside those that are there; a wider "
+                f"database is computed anew: {runs} runs of the solver"
+            )
         wrong += beyond
         if uses_outlines(study):
             wrong += _outline_problems(row, study, table)
@@ -105,8 +108,8 @@ def _ask_model(addition: Addition, texts: list[dict[str, str]], study: dict) -> 
             shot.remarks.append(f"beyond the network, no prediction: {'; '.join(beyond)}")
             if shot.inside:
                 shot.remarks.append(
-                    "study.yaml was widened since the network was trained: the database is "
-                    f"computed anew ({study['database']['runs']} runs of the solver)"
+                    "study.yaml was widened since the network was trained: `taylorcal why` tells "
+                    "the runs of the solver that this costs"
                 )
     fitted = home / "outlines" / "measurements.csv" if uses_outlines(study) else addition.table
     try:

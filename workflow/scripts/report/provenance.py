@@ -37,7 +37,7 @@ def _files(name: str, inputs: dict[str, Path]) -> list[tuple[str, str]]:
 
 
 STAGES_OF = {
-    "database": ["runs", "merge"],
+    "database": ["runs", "further_runs", "merge"],
     "emulator": ["train"],
     "posterior": ["sample"],
     "comparison": ["compare"],
@@ -49,7 +49,9 @@ def _costs(name: str, costs: list[dict]) -> list[tuple[str, str]]:
     if not own:
         return []
     wall_s, cpu_s = (sum(cost[key] for cost in own) for key in ("wall_s", "cpu_s"))
-    return [("wall and CPU seconds", f"{wall_s:.1f}, {cpu_s:.1f}")]
+    hosts = sorted({host for cost in own for host in cost["hosts"]})
+    rows = [("computed on", ", ".join(hosts))] if hosts else []
+    return [*rows, ("wall and CPU seconds", f"{wall_s:.1f}, {cpu_s:.1f}")]
 
 
 def stage_provenance(title: str, record: dict) -> dict:

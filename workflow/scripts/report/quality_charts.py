@@ -9,6 +9,7 @@ from report.words import SHAPE_WORDS, duration, size_words
 STAGE_WORDS = {
     "design": "design",
     "runs": "solver runs",
+    "further_runs": "further solver runs",
     "merge": "merging",
     "train": "training",
     "sample": "sampling",

@@ -8,6 +8,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 
+from job_log import job_record
 from measurements import read_measurements
 from outlines.basis import OutlineBasis, read_basis
 
@@ -26,7 +27,7 @@ class Posterior:
 
 @dataclass
 class Database:
-    status: np.ndarray  # 0 stopped, 1 not stopped, 2 failed
+    status: np.ndarray  # 0 stopped, 1 not stopped, 2 failed, 3 over its CPU limit
     reasons: list[str]
     steps: np.ndarray
     descriptors: dict[str, np.ndarray]
@@ -51,7 +52,7 @@ class Results:
     emulator: dict
     posterior: Posterior
     database: Database
-    stage_costs: list[dict]  # {"stage", "jobs", "wall_s", "cpu_s", "memory_MB"}
+    stage_costs: list[dict]  # {"stage", "jobs", "hosts", "wall_s", "cpu_s", "memory_MB"}
     outlines: Outlines | None = None
 
     @property
@@ -147,15 +148,16 @@ def _run_costs(path: Path) -> list[float]:
         return [float(row["cpu_s"]) for row in csv.DictReader(file)]
 
 
-STAGES = ["design", "runs", "merge", "train", "sample", "compare"]
+STAGES = ["design", "runs", "further_runs", "merge", "train", "sample", "compare"]
 
 
 def _stage_costs(folder: Path) -> list[dict]:
-    """Snakemake's benchmarks, the chunks of the runs added up."""
+    """Of each stage what its jobs cost, and on which machines, from their logs and benchmarks."""
     costs = []
     for stage in STAGES:
-        records = []
+        records, jobs = [], []
         for path in sorted([*folder.glob(f"{stage}.tsv"), *folder.glob(f"{stage}_*.tsv")]):
+            jobs.append(job_record(folder.parent / "logs" / f"{path.stem}.log"))
             with path.open(newline="") as file:
                 records += list(csv.DictReader(file, delimiter="\t"))
         if records:
@@ -163,8 +165,9 @@ def _stage_costs(folder: Path) -> list[dict]:
                 {
                     "stage": stage,
                     "jobs": len(records),
-                    "wall_s": sum(_number(record["s"]) for record in records),
-                    "cpu_s": sum(_number(record["cpu_time"]) for record in records),
+                    "hosts": sorted({job.host for job in jobs if job.host}),
+                    "wall_s": sum(job.wall_s or 0 for job in jobs),
+                    "cpu_s": sum(job.cpu_s or 0 for job in jobs),
                     "memory_MB": max(_number(record["max_rss"]) for record in records),
                 }
             )

@@ -10,6 +10,8 @@ STAGES = {
     "design": "choosing the runs of the database",
     "runs": "runs of the solver for the database",
     "merge": "joining the runs to the database",
+    "further_design": "choosing the further runs",
+    "further_runs": "further runs of the solver",
     "better_design": "choosing the runs of the better solver",
     "better_runs": "runs of the better solver",
     "better": "joining the runs of the better solver",

@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 from equation_of_state.models import EquationOfState
+from scipy.integrate import solve_ivp
 from scipy.optimize import brentq, root
 
 
@@ -59,17 +60,11 @@ def shock_speed(eos: EquationOfState, particle_speed: float, rest: Rest) -> floa
 
 
 def isentrope(eos: EquationOfState, densities: np.ndarray, energy: float) -> np.ndarray:
-    """Energies along dE = P/rho^2 drho from `energy` at the first density (Runge-Kutta)."""
+    """Energies along dE = P/rho^2 drho from `energy` at the first density."""
 
     def slope(rho, e):
-        return float(eos.at(rho, e).pressure) / rho**2
+        return [float(eos.at(rho, e[0]).pressure) / rho**2]
 
-    energies = [energy]
-    for rho, following in zip(densities[:-1], densities[1:]):
-        h, e = following - rho, energies[-1]
-        k1 = slope(rho, e)
-        k2 = slope(rho + h / 2, e + h / 2 * k1)
-        k3 = slope(rho + h / 2, e + h / 2 * k2)
-        k4 = slope(following, e + h * k3)
-        energies.append(e + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4))
-    return np.array(energies)
+    ends = (densities[0], densities[-1])
+    path = solve_ivp(slope, ends, [energy], t_eval=densities, rtol=1e-9, atol=1e-3)
+    return path.y[0]

@@ -4,7 +4,7 @@ SHELL := /bin/bash
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .PHONY: help setup configure build demo diagnose test kills bench paper paper-calibration \
-        accuracy discovery eos clean lint lint-format lint-tidy lint-workflow lint-python
+        accuracy discovery eos twins clean lint lint-format lint-tidy lint-workflow lint-python
 
 # Debian's own interpreters: another python3 first on PATH would lack the packages.
 PYTHON := /usr/bin/python3
@@ -77,8 +77,17 @@ paper-calibration: build ## the source paper's calibration, DRAWS=1e7 in minutes
 	@.ci/use_committed_runs paper_design
 	$(SNAKEMAKE) --profile $(PROFILE) --cores $(JOBS) --config study=paper_design
 	$(SNAKEMAKE) --snakefile tests/verification/Snakefile --cores $(JOBS) \
-	    results/verification/paper_calibration_$(DRAWS).txt results/verification/two_solvers.png
-	@cat results/verification/paper_calibration_$(DRAWS).txt
+	    results/verification/paper_calibration_$(DRAWS).txt results/verification/two_solvers.png \
+	    results/verification/modes.txt
+	@cat results/verification/paper_calibration_$(DRAWS).txt results/verification/modes.txt
+
+twins: build ## are the intervals honest? forty synthetic tables of known parameters; half an hour
+	@.ci/use_committed_runs paper_design
+	$(SNAKEMAKE) --profile $(PROFILE) --cores $(JOBS) --config study=paper_design \
+	    -- results/paper_design/config/train.json results/paper_design/config/calibrate.json
+	$(SNAKEMAKE) --snakefile tests/verification/Snakefile --cores $(JOBS) \
+	    results/verification/twins.txt
+	@cat results/verification/twins.txt
 
 discovery: build ## blind tables with hidden effects: how often are they found?
 	$(SNAKEMAKE) --snakefile tests/discovery/Snakefile --cores $(JOBS) --rerun-incomplete --keep-going

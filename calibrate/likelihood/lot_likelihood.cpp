@@ -1,6 +1,7 @@
 #include "calibrate/likelihood/lot_likelihood.hpp"
 
 #include "calibrate/likelihood/errors_of_shot.hpp"
+#include "calibrate/likelihood/shared_error.hpp"
 
 namespace taylorcal::calibrate {
 
@@ -11,19 +12,32 @@ LotLikelihood::LotLikelihood(const Settings& settings, const DataSet& set,
       predictor_(predictor),
       levels_(spread_levels(settings)),
       reference_(reference),
-      lots_(set.lots.size()) {
+      lots_(set.lots.size()),
+      blocks_(set.lots.size()) {
     const RowMatrix point = reference.transpose();
+    std::vector<std::vector<const Datum*>> shots(set.lots.size());
     for (const Datum* datum : set.fitted()) {
         const RowMatrix parameters = space.lot_parameters(point, datum->lot);
         const Eigen::MatrixXd fixed =
             fixed_covariance(settings, predictor, *datum, parameters.row(0).transpose());
         lots_[datum->lot].push_back(
             {datum->shot, ShotLikelihood(*datum, fixed, levels_)});
+        shots[datum->lot].push_back(datum);
         ++shots_;
+    }
+    if (settings.network_errors == NetworkErrors::independent) return;
+    for (std::size_t lot = 0; lot < shots.size(); ++lot) {
+        if (shots[lot].empty()) continue;
+        const RowMatrix parameters = space.lot_parameters(point, lot);
+        blocks_[lot].emplace(shots[lot],
+                             lot_covariance(settings, predictor, shots[lot],
+                                            parameters.row(0).transpose()),
+                             levels_);
     }
 }
 
 RowMatrix LotLikelihood::operator()(std::size_t lot, const RowMatrix& parameters) const {
+    if (blocks_[lot]) return (*blocks_[lot])(predictor_, parameters);
     RowMatrix total = RowMatrix::Zero(parameters.rows(),
                                       static_cast<Eigen::Index>(levels_.values.size()));
     for (const Row& part : lots_[lot]) {
@@ -38,6 +52,11 @@ RowMatrix LotLikelihood::whitened(const RowMatrix& units, std::size_t level) con
     std::vector<Eigen::VectorXd> columns;
     for (std::size_t lot = 0; lot < lots_.size(); ++lot) {
         const RowMatrix parameters = space_.lot_parameters(units, lot);
+        if (blocks_[lot]) {
+            const RowMatrix own = blocks_[lot]->whitened(predictor_, parameters, level);
+            for (const auto& column : own.colwise()) columns.emplace_back(column);
+            continue;
+        }
         for (const Row& part : lots_[lot]) {
             const RowMatrix predicted = predictor_.predict(part.shot, parameters);
             const std::size_t first = columns.size();

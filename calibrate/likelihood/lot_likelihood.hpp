@@ -1,9 +1,11 @@
 #pragma once
 
+#include "calibrate/likelihood/block_likelihood.hpp"
 #include "calibrate/likelihood/shot_likelihood.hpp"
 #include "calibrate/prediction/predictor.hpp"
 #include "calibrate/sampling/parameter_space.hpp"
 
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -40,6 +42,7 @@ class LotLikelihood {
     /// Predictions of shots that one parameter point (all lots) costs.
     std::size_t shots() const { return shots_; }
 
+    /// Shot by shot, as if their errors were independent.
     const std::vector<Row>& rows(std::size_t lot) const { return lots_[lot]; }
 
   private:
@@ -48,6 +51,7 @@ class LotLikelihood {
     SpreadLevels levels_;
     Eigen::VectorXd reference_;
     std::vector<std::vector<Row>> lots_;
+    std::vector<std::optional<BlockLikelihood>> blocks_;  // where errors are in common
     std::size_t shots_ = 0;
 };
 

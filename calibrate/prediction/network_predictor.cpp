@@ -73,6 +73,15 @@ const emulator::InputInfo& NetworkPredictor::velocity() const {
         .inputs()[static_cast<std::size_t>(emulator_.input_index("velocity_m_s"))];
 }
 
+double NetworkPredictor::apart(const Shot& a, const Shot& b) const {
+    double sum = 0;
+    for (const emulator::InputInfo& input : emulator_.inputs())
+        if (input.used && is_shot_input(input.name))
+            sum += std::abs(shot_input(input.name, a) - shot_input(input.name, b)) /
+                   (input.upper - input.lower);
+    return sum;
+}
+
 double NetworkPredictor::lowest_velocity_m_s() const { return velocity().lower; }
 
 double NetworkPredictor::highest_velocity_m_s() const { return velocity().upper; }

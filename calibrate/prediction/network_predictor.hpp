@@ -21,6 +21,7 @@ class NetworkPredictor final : public Predictor {
     /// From the held-out runs next to the point.
     Eigen::MatrixXd error_covariance(const Shot& shot,
                                      const Eigen::VectorXd& parameters) const override;
+    double apart(const Shot& a, const Shot& b) const override;
     double lowest_velocity_m_s() const override;
     double highest_velocity_m_s() const override;
 

@@ -19,6 +19,9 @@ class Predictor {
     /// parameters, in the same order.
     virtual Eigen::MatrixXd error_covariance(const Shot& shot,
                                              const Eigen::VectorXd& parameters) const = 0;
+    /// How different two shots are to the predictor: differences of velocity, geometry
+    /// and temperature in shares of their ranges, added.
+    virtual double apart(const Shot& a, const Shot& b) const = 0;
     /// Range of impact velocity [m/s] in which it may be asked.
     virtual double lowest_velocity_m_s() const = 0;
     virtual double highest_velocity_m_s() const = 0;

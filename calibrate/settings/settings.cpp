@@ -152,10 +152,24 @@ void read_draws_from(const JsonReader& reader, Settings& settings) {
                                 most_shared, settings.parameters.size(), own));
 }
 
+/// Common unless the likelihood goes row by row.
+void read_network_errors(const JsonReader& reader, Settings& settings) {
+    const bool by_row = settings.draws_from == DrawsFrom::prior ||
+                        settings.likelihood == LikelihoodForm::paper;
+    const char* key = "network_errors";
+    const bool common = reader.word(key, {"common", "independent"},
+                                    by_row ? "independent" : "common") == "common";
+    if (common && by_row)
+        reader.fail(key,
+                    "= common cannot go with plain draws or the paper's likelihood "
+                    "(expected independent).");
+    settings.network_errors = common ? NetworkErrors::common : NetworkErrors::independent;
+}
+
 Settings read(const JsonReader& reader) {
     reader.only({"parameters", "fit_sizes", "likelihood", "velocity_sd_relative",
-                 "unexplained_spread", "draws_from", "draw_sequence", "draws",
-                 "draws_per_lot", "seed", "kept_draws"});
+                 "unexplained_spread", "network_errors", "draws_from", "draw_sequence",
+                 "draws", "draws_per_lot", "seed", "kept_draws"});
     Settings settings;
     settings.parameters = read_parameters(reader);
     settings.fit_sizes = read_fit_sizes(reader);
@@ -166,6 +180,7 @@ Settings read(const JsonReader& reader) {
         reader.number_in("velocity_sd_relative", 0, 0.5, settings.velocity_sd_relative);
     settings.unexplained_spread = read_spread(reader);
     read_draws_from(reader, settings);
+    read_network_errors(reader, settings);
     settings.draws = read_count(reader, "draws", 100, settings.draws);
     settings.draws_per_lot =
         read_count(reader, "draws_per_lot", 1, settings.draws_per_lot);

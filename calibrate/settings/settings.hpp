@@ -32,6 +32,10 @@ struct UnexplainedSpread {
 /// deviations.
 enum class LikelihoodForm { full, paper };
 
+/// Whether shots of one lot share the network's error (its correlation is then part of
+/// the likelihood), or each has its own.
+enum class NetworkErrors { common, independent };
+
 /// Where draws come from: a proposal that is adapted to the posterior, or the prior
 /// itself (plain draws in one long pass, of at most four shared parameters).
 enum class DrawsFrom { adapted, prior };
@@ -47,6 +51,7 @@ struct Settings {
     LikelihoodForm likelihood = LikelihoodForm::full;
     double velocity_sd_relative = 0.01;
     std::optional<UnexplainedSpread> unexplained_spread;
+    NetworkErrors network_errors = NetworkErrors::independent;
     DrawsFrom draws_from = DrawsFrom::adapted;
     DrawSequence draw_sequence = DrawSequence::random;
     std::uint64_t draws = 20000;       ///< of the shared parameters

@@ -27,6 +27,7 @@ CONFIG = {
     ],
     "fit_sizes": SIZES,
     "velocity_sd_relative": 0.01,
+    "network_errors": "independent",
     "unexplained_spread": {"prior_scale": 0.01, "grid": [0, 0.01, 0.02]},
     "draws": 40000,
     "seed": 3,

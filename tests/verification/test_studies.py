@@ -87,7 +87,7 @@ def test_the_sample_counts_what_was_lost_by_its_kind():
     runs += [sampled_run("truncated_cone", "failed", folded, 0.5)]
     runs += [sampled_run("uniform_cylinder", "stopped", energy_error=3e-3)]
     table = sample.summarise(pd.DataFrame(runs)).set_index("shape")
-    assert table.loc["truncated_cone", sample.STATUSES].tolist() == [0, 2, 1]
+    assert table.loc["truncated_cone", sample.STATUSES].tolist() == [0, 2, 1, 0]
     assert table.loc["truncated_cone", "reasons"] == (
         "2 x n steps were not enough; 1 x a cell folded over"
     )
@@ -110,7 +110,8 @@ def test_a_lost_run_comes_with_the_command_that_computes_it_again(solver):
 
 def test_plain_draws_are_as_many_as_asked_for():
     asked = plain_settings({"seed": 3, "draws": 60000}, float("1e7"))
-    assert asked == {"seed": 3, "draws": 10_000_000, "draws_from": "prior"}
+    plain = {"draws_from": "prior", "network_errors": "independent"}
+    assert asked == {"seed": 3, "draws": 10_000_000, **plain}
     with pytest.raises(ValueError, match="at least 1e5"):
         plain_settings({}, 1e3)
 

@@ -114,3 +114,16 @@ TEST_CASE("plain draws are for a few shared parameters", "[settings]") {
     CHECK(read.draw_sequence == DrawSequence::sobol);
     CHECK(parse_settings(good(), "calibrate.json").draws_from == DrawsFrom::adapted);
 }
+
+TEST_CASE("shots share the network's error unless rows are taken one by one",
+          "[settings]") {
+    json settings = good();
+    CHECK(parse_settings(settings, "calibrate.json").network_errors ==
+          NetworkErrors::common);
+    settings["likelihood"] = "paper";
+    CHECK(parse_settings(settings, "calibrate.json").network_errors ==
+          NetworkErrors::independent);
+    settings["network_errors"] = "common";
+    CHECK_THAT(complaint(settings),
+               Contains("network_errors") && Contains("independent"));
+}

@@ -26,6 +26,10 @@ class ClosedForm final : public Predictor {
     Eigen::MatrixXd error_covariance(const Shot&, const Eigen::VectorXd&) const override {
         return covariance_;
     }
+    /// In shares of 100 m/s.
+    double apart(const Shot& a, const Shot& b) const override {
+        return std::abs(a.velocity_m_s - b.velocity_m_s) / 100;
+    }
     double lowest_velocity_m_s() const override { return 1; }
     double highest_velocity_m_s() const override { return 1000; }
 

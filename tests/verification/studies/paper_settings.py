@@ -7,7 +7,8 @@ from pathlib import Path
 def plain_settings(settings: dict, draws: float) -> dict:
     if draws < 1e5:
         raise ValueError(f"draws = {draws:g} (expected at least 1e5, as in DRAWS=1e7).")
-    return {**settings, "draws_from": "prior", "draws": int(draws)}
+    plain = {"draws_from": "prior", "network_errors": "independent", "draws": int(draws)}
+    return {**settings, **plain}
 
 
 if __name__ == "__main__":

@@ -10,15 +10,21 @@ sys.path.append("workflow/scripts")
 
 from make_synthetic_table import TableDesign, table_rows, write_table  # noqa: E402
 
-TWINS = 20
+LOOKED_AT = 20  # twins that told how the network's errors belong together
+TWINS = 40  # the others judge the intervals
 SHOTS = 40  # of each
 SEED = 2023
 SOURCE = "synthetic: made by taylorcal's solver (axisymmetric, coarse), parameters from the prior"
 
 
 def truths(parameters: dict) -> list[dict[str, float]]:
-    """One metal a twin, Latin hypercube over the priors of a study's `parameters`."""
-    units = qmc.LatinHypercube(d=len(parameters), seed=SEED).random(TWINS)
+    """One metal a twin; of either part a Latin hypercube over the priors of `parameters`."""
+    units = np.concatenate(
+        [
+            qmc.LatinHypercube(d=len(parameters), seed=SEED + part).random(count)
+            for part, count in enumerate((LOOKED_AT, TWINS - LOOKED_AT))
+        ]
+    )
     metals = []
     for row in units:
         metal = {}

@@ -139,7 +139,8 @@ Eigen::MatrixXd NetworkPredictor::error_covariance(
             const Eigen::Index a = at[static_cast<std::size_t>(i)];
             const Eigen::Index b = at[static_cast<std::size_t>(j)];
             if (a >= 0 && b >= 0)
-                covariance(i, j) = source.matrix(a, b) * scale(i) * scale(j);
+                covariance(i, j) =
+                    held_out_understate * source.matrix(a, b) * scale(i) * scale(j);
         }
     return covariance;
 }

@@ -92,9 +92,9 @@ TEST_CASE("the network is asked for the shot and the parameters", "[network]") {
 TEST_CASE("the network's covariance is scaled by the specimen", "[network]") {
     const Eigen::VectorXd density = Eigen::VectorXd::Constant(1, 1e12);
     const Eigen::MatrixXd covariance = predictor().error_covariance(good_shot(), density);
-    CHECK(covariance(0, 0) == Approx(4e-4 * 8 * 8));
-    CHECK(covariance(1, 1) == Approx(1e-4 * 40 * 40));
-    CHECK(covariance(0, 1) == Approx(2e-5 * 8 * 40));
+    CHECK(covariance(0, 0) == Approx(3 * 4e-4 * 8 * 8));
+    CHECK(covariance(1, 1) == Approx(3 * 1e-4 * 40 * 40));
+    CHECK(covariance(0, 1) == Approx(3 * 2e-5 * 8 * 40));
 }
 
 TEST_CASE("the network's covariance is that of the held-out runs next to the metal",
@@ -118,10 +118,10 @@ TEST_CASE("the network's covariance is that of the held-out runs next to the met
     const auto blended = [&](double own, double whole) {
         return (1 - weight) * own + weight * whole;
     };
-    CHECK(of(1e10)(1, 1) == Approx(1600 * blended(2.5e-3, 1e-4)));
-    CHECK(of(1e15)(1, 1) == Approx(1600 * blended(2.5e-5, 1e-4)));
-    CHECK(of(1e15)(0, 0) == Approx(64 * blended(1e-4, 4e-4)));
-    CHECK(of(1e15)(0, 1) == Approx(320 * weight * 2e-5));
+    CHECK(of(1e10)(1, 1) == Approx(3 * 1600 * blended(2.5e-3, 1e-4)));
+    CHECK(of(1e15)(1, 1) == Approx(3 * 1600 * blended(2.5e-5, 1e-4)));
+    CHECK(of(1e15)(0, 0) == Approx(3 * 64 * blended(1e-4, 4e-4)));
+    CHECK(of(1e15)(0, 1) == Approx(3 * 320 * weight * 2e-5));
 }
 
 TEST_CASE("shots beyond the network are refused", "[network]") {

@@ -12,7 +12,8 @@
 namespace taylorcal::calibrate::toys {
 
 /// A network of given layers over velocity [100 m/s above 100] and the parameters, each
-/// as its place in the unit interval; outputs are the fitted sizes in mm. `roots`: of
+/// as its place in the unit interval; outputs are the fitted sizes in mm,
+/// `covariance` that of the likelihood. `roots`: of
 /// those that are uniform from 0 or above, the square root.
 inline NetworkPredictor network(const Settings& settings,
                                 const std::vector<emulator::Layer>& layers,
@@ -32,7 +33,7 @@ inline NetworkPredictor network(const Settings& settings,
     for (const std::string& size : settings.fit_sizes)
         model.outputs.push_back({size, 0, 1, {}});
     model.members.push_back({layers, 1, 16, 0.01, 0.1});
-    model.covariances = {{"all", {settings.fit_sizes, covariance}}};
+    model.covariances = {{"all", {settings.fit_sizes, covariance / held_out_understate}}};
     return {emulator::Emulator(std::move(model)), settings};
 }
 

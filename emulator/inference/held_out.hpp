@@ -1,7 +1,5 @@
 #pragma once
 
-#include "emulator/inference/transform.hpp"
-
 #include <string>
 #include <vector>
 

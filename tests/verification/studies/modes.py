@@ -52,7 +52,7 @@ def draw(table, modes, runs, sizes, path):
     figure, axes = plt.subplots(
         len(modes), len(sizes), figsize=(3.1 * len(sizes), 3.1 * len(modes)), squeeze=False
     )
-    for line, (share, place), answers in zip(axes, modes, runs):
+    for line, (share, _), answers in zip(axes, modes, runs):
         for axis, size in zip(line, sizes):
             for shape, colour in COLOURS.items():
                 shots = sorted(

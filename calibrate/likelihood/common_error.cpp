@@ -1,4 +1,4 @@
-#include "calibrate/likelihood/shared_error.hpp"
+#include "calibrate/likelihood/common_error.hpp"
 
 #include "calibrate/likelihood/errors_of_shot.hpp"
 

@@ -1,7 +1,7 @@
 #include "calibrate/likelihood/lot_likelihood.hpp"
 
+#include "calibrate/likelihood/common_error.hpp"
 #include "calibrate/likelihood/errors_of_shot.hpp"
-#include "calibrate/likelihood/shared_error.hpp"
 
 namespace taylorcal::calibrate {
 
@@ -14,25 +14,25 @@ LotLikelihood::LotLikelihood(const Settings& settings, const DataSet& set,
       reference_(reference),
       lots_(set.lots.size()),
       blocks_(set.lots.size()) {
-    const RowMatrix point = reference.transpose();
     std::vector<std::vector<const Datum*>> shots(set.lots.size());
-    for (const Datum* datum : set.fitted()) {
-        const RowMatrix parameters = space.lot_parameters(point, datum->lot);
-        const Eigen::MatrixXd fixed =
-            fixed_covariance(settings, predictor, *datum, parameters.row(0).transpose());
-        lots_[datum->lot].push_back(
-            {datum->shot, ShotLikelihood(*datum, fixed, levels_)});
-        shots[datum->lot].push_back(datum);
-        ++shots_;
-    }
-    if (settings.network_errors == NetworkErrors::independent) return;
+    for (const Datum* datum : set.fitted()) shots[datum->lot].push_back(datum);
     for (std::size_t lot = 0; lot < shots.size(); ++lot) {
+        shots_ += shots[lot].size();
         if (shots[lot].empty()) continue;
-        const RowMatrix parameters = space.lot_parameters(point, lot);
-        blocks_[lot].emplace(shots[lot],
-                             lot_covariance(settings, predictor, shots[lot],
-                                            parameters.row(0).transpose()),
-                             levels_);
+        const RowMatrix point = space.lot_parameters(reference.transpose(), lot);
+        const Eigen::VectorXd parameters = point.row(0).transpose();
+        if (settings.network_errors == NetworkErrors::common) {
+            blocks_[lot].emplace(
+                shots[lot], lot_covariance(settings, predictor, shots[lot], parameters),
+                levels_);
+            continue;
+        }
+        for (const Datum* datum : shots[lot])
+            lots_[lot].push_back(
+                {datum->shot,
+                 ShotLikelihood(*datum,
+                                fixed_covariance(settings, predictor, *datum, parameters),
+                                levels_)});
     }
 }
 

@@ -42,7 +42,7 @@ class LotLikelihood {
     /// Predictions of shots that one parameter point (all lots) costs.
     std::size_t shots() const { return shots_; }
 
-    /// Shot by shot, as if their errors were independent.
+    /// Shot by shot; none where errors are in common.
     const std::vector<Row>& rows(std::size_t lot) const { return lots_[lot]; }
 
   private:

@@ -1,6 +1,6 @@
+#include "calibrate/likelihood/common_error.hpp"
 #include "calibrate/likelihood/errors_of_shot.hpp"
 #include "calibrate/likelihood/lot_likelihood.hpp"
-#include "calibrate/likelihood/shared_error.hpp"
 #include "tests/unit/calibrate/toy_models.hpp"
 
 #include <cmath>

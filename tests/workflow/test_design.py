@@ -44,6 +44,19 @@ def test_densities_are_even_in_their_logarithm(settings):
     assert counts.min() >= 24 and counts.max() <= 32
 
 
+def test_runs_are_denser_near_zero_where_asked(settings):
+    settings["parameters"]["hardening_coefficient"]["lower"] = 0
+    made = design({**settings, "spacing": "square_root"})
+    column = made["names"].index("hardening_coefficient")
+    roots = np.sqrt(made["inputs"][:, column] / 5)
+    counts, _ = np.histogram(roots[(roots > 0) & (roots < 1)], bins=10, range=(0, 1))
+    assert counts.min() >= 22 and counts.max() <= 35
+    # Densities stay even in their logarithm, and nothing else moves.
+    even = design(settings)["inputs"]
+    others = [index for index in range(even.shape[1]) if index != column]
+    assert (even[:, others] == made["inputs"][:, others]).all()
+
+
 @pytest.mark.parametrize("runs", [24, 300, 1000])
 def test_each_shape_has_runs_on_both_ends_of_each_range(settings, runs):
     made = design({**settings, "runs": runs})

@@ -82,6 +82,22 @@ def test_parts_have_numbers_of_their_own_and_revisions_cover_all(tmp_path):
     assert design_settings(study)["ranges"]["velocity_m_s"] == [100, 210]
 
 
+def test_beside_better_runs_a_part_may_be_denser_but_not_wider(tmp_path):
+    dense = "    - { runs: 8, spacing: square_root }\n"
+    better = "  better: { geometry: axisymmetric, fidelity: standard, runs: 8 }\n  further:\n"
+
+    def read(part):
+        text = with_parts(part).replace("  further:\n", better)
+        return read_study(write_study(tmp_path / "tiny", text) / "study.yaml")
+
+    study = read(dense)
+    assert further_design_settings(study, 0)["spacing"] == "square_root"
+    assert "spacing" not in design_settings(study)
+    for wider in (SHAPE, VELOCITY):
+        with pytest.raises(InputError, match="database.further has no runs of the better solver"):
+            read(wider)
+
+
 @pytest.mark.parametrize(
     "part, problem",
     [

@@ -14,13 +14,13 @@ EDGE_RUNS = 3  # of each shape on either end of each range
 
 def design(settings: dict) -> dict:
     """Columns of the design."""
-    axes = [(name, *limits, False) for name, limits in settings["ranges"].items()]
+    axes = [(name, *limits, "even") for name, limits in settings["ranges"].items()]
     axes += [
-        (name, values["lower"], values["upper"], values["prior"] == "log_uniform")
+        (name, values["lower"], values["upper"], _spacing(values, settings))
         for name, values in settings["parameters"].items()
     ]
     axes += [
-        (name, values["lower"], values["upper"], False)
+        (name, values["lower"], values["upper"], "even")
         for name, values in settings.get("effects", {}).items()
     ]
     first_run = settings.get("first_run", 0)
@@ -30,10 +30,12 @@ def design(settings: dict) -> dict:
     varying = [index for index, (_, lower, upper, _) in enumerate(axes) if lower < upper]
     points = _interleaved_sobol(len(varying), runs, len(shapes), seed)
     inputs = np.empty((runs, len(axes)))
-    for index, (_, lower, upper, logarithmic) in enumerate(axes):
+    for index, (_, lower, upper, spacing) in enumerate(axes):
         share = points[:, varying.index(index)] if index in varying else np.zeros(runs)
-        if logarithmic:
+        if spacing == "logarithmic":
             values = lower * (upper / lower) ** share
+        elif spacing == "square_root":
+            values = (lower**0.5 + (upper**0.5 - lower**0.5) * share) ** 2
         else:
             values = lower + (upper - lower) * share
         inputs[:, index] = np.clip(values, lower, upper)  # rounding must not leave the range
@@ -45,6 +47,14 @@ def design(settings: dict) -> dict:
         "inputs": inputs,
         "names": [axis[0] for axis in axes],
     }
+
+
+def _spacing(parameter: dict, settings: dict) -> str:
+    """How a parameter's values are spread: as its prior, or denser towards zero where asked."""
+    if parameter["prior"] == "log_uniform":
+        return "logarithmic"
+    dense = settings.get("spacing") == "square_root" and parameter["lower"] >= 0
+    return "square_root" if dense else "even"
 
 
 def _interleaved_sobol(dimensions: int, runs: int, shapes: int, seed: list[int]) -> np.ndarray:

@@ -71,7 +71,8 @@ def _contradictions(study: dict) -> list[tuple[tuple, str]]:
             if lowest > highest:
                 problem = f"= [{lowest}, {highest}] (expected the lowest value first)."
                 found.append((("database", *place, key), problem))
-    if study["database"]["further"] and study["database"]["better"]:
+    own = set(DESIGN_RANGES) | {"shapes"}
+    if study["database"]["better"] and any(own & set(p) for p in study["database"]["further"]):
         problem = "has no runs of the better solver. Widen the ranges of the database itself."
         found.append((("database", "further"), problem))
     for name, parameter in study["parameters"].items():
@@ -172,7 +173,8 @@ def further_design_settings(study: dict, part: int) -> dict:
     settings = design_settings(at_revision(study, []))
     covered = database_parts(study)[1 + part]
     settings |= {"shapes": covered.pop("shapes"), "ranges": covered}
-    settings["runs"] = study["database"]["further"][part]["runs"]
+    given = study["database"]["further"][part]
+    settings |= {key: given[key] for key in ("runs", "spacing") if key in given}
     return {**settings, "first_run": FIRST_FURTHER_RUN + part * RUNS_OF_A_PART}
 
 

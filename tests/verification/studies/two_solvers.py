@@ -18,10 +18,15 @@ import matplotlib.pyplot as plt  # noqa: E402
 HELD_OUT = 350  # better runs, the last ones of the design
 EPOCHS = 1000
 MEMBERS = 2
-CHEAPER = [0, 600, 2400]  # runs learnt from
+CHEAPER = [0, 600, 2400, 4800]  # runs learnt from; the second half is denser near zero
 BETTER = [0, 100, 200, 400]
 HARDENING = {"hardening_coefficient": 1, "immobilization_velocity": 0.2}  # above: no discs
-LABELS = {0: "better runs alone", 600: "+ 600 coarse runs", 2400: "+ 2400 coarse runs"}
+LABELS = {
+    0: "better runs alone",
+    600: "+ 600 coarse runs",
+    2400: "+ 2400 coarse runs",
+    4800: "+ 2400 where metal hardly hardens",
+}
 
 
 def write_rows(source, rows, path):
@@ -106,7 +111,7 @@ def solver_scatter(better, repeats, names):
     return pd.DataFrame(rows)
 
 
-def compare(database, better, train, folder):
+def compare(database, better, train, folder, cheaper, better_counts):
     """One row for each number of cheaper and better runs that a network learnt from."""
     folder.mkdir(parents=True, exist_ok=True)
     with h5py.File(database) as file:
@@ -121,8 +126,8 @@ def compare(database, better, train, folder):
     settings["validation_fraction"] = 0.15
     (folder / "train.json").write_text(json.dumps(settings))
     rows = []
-    for cheap in CHEAPER:
-        for good in (n for n in BETTER if n + cheap and n <= better_count - HELD_OUT):
+    for cheap in cheaper:
+        for good in (n for n in better_counts if n + cheap and n <= better_count - HELD_OUT):
             files = []
             seconds = 0.0
             for source, count, most in [(database, cheap, cheap_count), (better, good, good)]:
@@ -148,33 +153,29 @@ def compare(database, better, train, folder):
     return pd.DataFrame(rows)
 
 
-def draw(table, scatter, path):
+def draw(table, scatter, path, labels, words):
+    """`scatter`: the solver's own, or None; `words`: what the better runs are called."""
     figure, axes = plt.subplots(1, 2, figsize=(9, 3.8), sharex=True)
     titles = {"rms_percent": "RMS", "largest_percent": "largest"}
     for axis, (column, title) in zip(axes, titles.items()):
         for cheap, part in table.groupby("cheaper_runs"):
             line = part.sort_values("better_runs")
-            axis.plot(line["core_hours"], line[column], "o-", label=LABELS[cheap])
+            axis.plot(line["core_hours"], line[column], "o-", label=labels[cheap])
             for _, row in line.iterrows():
                 spot = (row["core_hours"], row[column])
                 text = f"{int(row['better_runs'])}"
                 axis.annotate(text, spot, (4, 4), textcoords="offset points", fontsize=8)
-        floor = scatter.loc[scatter["runs"] == "all", column].item()
-        axis.axhline(floor, color="0.5", ls="--", lw=1)
-        axis.text(
-            0.02,
-            floor,
-            "scatter of the solver's own runs",
-            transform=axis.get_yaxis_transform(),
-            va="bottom",
-            fontsize=8,
-            color="0.4",
-        )
+        if scatter is not None:
+            floor = scatter.loc[scatter["runs"] == "all", column].item()
+            axis.axhline(floor, color="0.5", ls="--", lw=1)
+            place = {"transform": axis.get_yaxis_transform(), "va": "bottom"}
+            told = "scatter of the solver's own runs"
+            axis.text(0.02, floor, told, fontsize=8, color="0.4", **place)
         axis.set_yscale("log")
         axis.set_xlabel("runs learnt from [core-hours]")
-        axis.set_ylabel(f"{title} error on held-out standard runs [%]")
+        axis.set_ylabel(f"{title} error on held-out {words} runs [%]")
         axis.grid(alpha=0.3, which="both")
-    axes[0].legend(title="numbers: standard runs", fontsize=8, title_fontsize=8)
+    axes[0].legend(title=f"numbers: {words} runs", fontsize=8, title_fontsize=8)
     figure.tight_layout()
     figure.savefig(path, dpi=110)
 
@@ -185,10 +186,12 @@ if __name__ == "__main__":
         snakemake.input.better,  # noqa: F821
         snakemake.input.train,  # noqa: F821
         Path(snakemake.output.table).with_suffix(""),  # noqa: F821
+        CHEAPER,
+        BETTER,
     )
     found.round(4).to_csv(snakemake.output.table, index=False)  # noqa: F821
     train = json.loads(Path(snakemake.input.train).read_text())  # noqa: F821
     outputs = [output["name"] for output in train["outputs"]]
     scatter = solver_scatter(snakemake.input.better, snakemake.input.repeats, outputs)  # noqa: F821
     scatter.round(4).to_csv(snakemake.output.scatter, index=False)  # noqa: F821
-    draw(found, scatter, snakemake.output.figure)  # noqa: F821
+    draw(found, scatter, snakemake.output.figure, LABELS, "standard")  # noqa: F821

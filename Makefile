@@ -78,8 +78,9 @@ paper-calibration: build ## the source paper's calibration, DRAWS=1e7 in minutes
 	$(SNAKEMAKE) --profile $(PROFILE) --cores $(JOBS) --config study=paper_design
 	$(SNAKEMAKE) --snakefile tests/verification/Snakefile --cores $(JOBS) \
 	    results/verification/paper_calibration_$(DRAWS).txt results/verification/two_solvers.png \
-	    results/verification/modes.txt
-	@cat results/verification/paper_calibration_$(DRAWS).txt results/verification/modes.txt
+	    results/verification/modes.txt results/verification/network_errors.txt
+	@cat results/verification/paper_calibration_$(DRAWS).txt results/verification/modes.txt \
+	    results/verification/network_errors.txt
 
 twins: build ## are the intervals honest? forty synthetic tables of known parameters; half an hour
 	@.ci/use_committed_runs paper_design

@@ -1,0 +1,34 @@
+# The network of paper_design, of results/paper_design alone.
+
+
+# Of the network alone: where it errs, and whether its members know.
+rule network_errors:
+    input:
+        emulator="results/paper_design/emulator.json",
+    output:
+        text="results/verification/network_errors.txt",
+        table="results/verification/network_errors.csv",
+        regions="results/verification/network_errors_regions.csv",
+        coverage="results/verification/network_errors_coverage.csv",
+        correlation="results/verification/network_correlation.png",
+        figure="results/verification/network_errors.png",
+    log:
+        "results/verification/logs/network_errors.log",
+    script:
+        "studies/network_errors.py"
+
+
+# The source paper's loss beside ours; needs PyTorch (apt-get install python3-torch).
+rule losses:
+    input:
+        database=ancient("results/paper_design/database.h5"),
+        better=ancient("results/paper_design/better.h5"),
+        train=ancient("results/paper_design/config/train.json"),
+    output:
+        text="results/verification/losses.txt",
+        table="results/verification/losses.csv",
+        figure="results/verification/losses.png",
+    log:
+        "results/verification/logs/losses.log",
+    script:
+        "studies/losses.py"

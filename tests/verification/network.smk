@@ -1,7 +1,7 @@
-# The network of paper_design, of results/paper_design alone.
+# Studies of what results/paper_design holds, without a run of the solver.
 
 
-# Of the network alone: where it errs, and whether its members know.
+# Where the network errs, and whether its members know.
 rule network_errors:
     input:
         emulator="results/paper_design/emulator.json",

@@ -12,6 +12,7 @@ ROOT = Path(__file__).parents[2]
 sys.path.insert(0, str(ROOT / "tests" / "verification" / "studies"))
 
 from error_scales import (  # noqa: E402
+    SCALES,
     by_region,
     error_table,
     percent_errors,
@@ -225,9 +226,9 @@ def test_normalised_outputs_leave_room_at_both_ends():
 
 def test_losses_are_told_by_their_seeds():
     row = {"loss": "cross-entropy", "learning_rate": 0.01, "epochs": 5, "n": 10}
-    figures = [f"{f}_percent_of_{s}" for f in ("rms", "largest") for s in ("mean", "range")]
-    rows = [{**row, "seed": k, **dict.fromkeys(figures, 1.0 + k)} for k in (1, 2)]
+    figures = [f"{f}_percent_of_{s}" for f in ("rms", "usual_rms", "largest") for s in SCALES]
+    rows = [{**row, "seed": k, **dict.fromkeys(figures, 1.0 + k)} for k in (1, 2, 9)]
     samples = type("Samples", (), {"held_out": np.array([True, False, False])})
     told = loss_words(pd.DataFrame(rows), samples)
-    assert "2 runs to learn from, 1 held out; mean of 2 seeds" in told
-    assert "2.50 (2.00 to 3.00)" in told
+    assert "2 runs to learn from, 1 held out; errors in %, median of 3 seeds" in told
+    assert "3.00 (2.00 to 10.00)" in told

@@ -111,15 +111,17 @@ def solver_scatter(better, repeats, names):
     return pd.DataFrame(rows)
 
 
-def compare(database, better, train, folder, cheaper, better_counts):
-    """One row for each number of cheaper and better runs that a network learnt from."""
+def compare(files, folder, cheaper, better_counts, held_out_runs):
+    """One row for each number of cheaper and better runs that a network learnt from; `files`:
+    databases of both and the settings of the training."""
+    database, better, train = files
     folder.mkdir(parents=True, exist_ok=True)
     with h5py.File(database) as file:
         cheap_count = len(file["run_id"])
     with h5py.File(better) as file:
         better_count = len(file["run_id"])
     held_out = folder / "held_out.h5"
-    write_rows(better, np.arange(better_count - HELD_OUT, better_count), held_out)
+    write_rows(better, np.arange(better_count - held_out_runs, better_count), held_out)
     hardening = folder / "held_out_hardening.h5"
     write_rows(held_out, hardening_rows(held_out), hardening)
     settings = {**json.loads(Path(train).read_text()), "epochs": EPOCHS, "members": MEMBERS}
@@ -127,7 +129,7 @@ def compare(database, better, train, folder, cheaper, better_counts):
     (folder / "train.json").write_text(json.dumps(settings))
     rows = []
     for cheap in cheaper:
-        for good in (n for n in better_counts if n + cheap and n <= better_count - HELD_OUT):
+        for good in (n for n in better_counts if n + cheap and n <= better_count - held_out_runs):
             files = []
             seconds = 0.0
             for source, count, most in [(database, cheap, cheap_count), (better, good, good)]:
@@ -181,17 +183,12 @@ def draw(table, scatter, path, labels, words):
 
 
 if __name__ == "__main__":
-    found = compare(
-        snakemake.input.database,  # noqa: F821
-        snakemake.input.better,  # noqa: F821
-        snakemake.input.train,  # noqa: F821
-        Path(snakemake.output.table).with_suffix(""),  # noqa: F821
-        CHEAPER,
-        BETTER,
-    )
-    found.round(4).to_csv(snakemake.output.table, index=False)  # noqa: F821
-    train = json.loads(Path(snakemake.input.train).read_text())  # noqa: F821
+    given, made = snakemake.input, snakemake.output  # noqa: F821
+    files = (given.database, given.better, given.train)
+    found = compare(files, Path(made.table).with_suffix(""), CHEAPER, BETTER, HELD_OUT)
+    found.round(4).to_csv(made.table, index=False)
+    train = json.loads(Path(given.train).read_text())
     outputs = [output["name"] for output in train["outputs"]]
-    scatter = solver_scatter(snakemake.input.better, snakemake.input.repeats, outputs)  # noqa: F821
-    scatter.round(4).to_csv(snakemake.output.scatter, index=False)  # noqa: F821
-    draw(found, scatter, snakemake.output.figure, LABELS, "standard")  # noqa: F821
+    scatter = solver_scatter(given.better, given.repeats, outputs)
+    scatter.round(4).to_csv(made.scatter, index=False)
+    draw(found, scatter, made.figure, LABELS, "standard")

@@ -6,6 +6,7 @@
 #include "solver/commands/merge.hpp"
 #include "tests/unit/commands/small_batch.hpp"
 
+#include <algorithm>
 #include <csignal>
 
 #include <catch2/catch.hpp>
@@ -120,14 +121,18 @@ TEST_CASE("a full disk costs no finished run", "[batch]") {
     std::signal(SIGXFSZ, handler);
     CHECK_THAT(problem, Contains("full.h5.journal.jsonl: cannot be written") &&
                             Contains("finished runs are kept"));
-    CHECK(read_text(journal).size() < room);
-    CHECK(read_text(journal).back() == '\n');
+    const std::string kept = read_text(journal);
+    CHECK(kept.size() < room);
+    CHECK(kept.back() == '\n');
+    // Which runs come first is a matter of two threads, and their lines differ in length.
+    const auto finished = static_cast<int>(std::ranges::count(kept, '\n')) - 1;
+    CHECK(finished >= 2);
     std::atomic<int> computed = 0;
     CHECK(batch.run("full.h5", 2, [&](const impact::ImpactCase& impact_case) {
         ++computed;
         return quick_answer(impact_case);
     }) == whole);
-    CHECK(computed == 5);
+    CHECK(computed == 9 - finished);
 }
 
 TEST_CASE("a run that fails becomes a row with its reason", "[batch]") {

@@ -71,7 +71,7 @@ def draw_map(axis, regions, norm):
     axis.pcolormesh(np.ma.masked_invalid(rms), norm=norm, cmap="YlOrRd", edgecolors="white")
     for (j, i), value in np.ndenumerate(rms):
         text = f"{value:.2g} %\n{counts[j, i]} runs" if counts[j, i] else "no run"
-        dark = counts[j, i] and value > 5
+        dark = counts[j, i] and norm(value) > 0.6
         style = {"ha": "center", "va": "center", "fontsize": 8}
         axis.text(i + 0.5, j + 0.5, text, color="white" if dark else "0.15", **style)
     for which, part, setter in (("first", rows, "x"), ("second", columns, "y")):

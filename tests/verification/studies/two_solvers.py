@@ -18,7 +18,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 HELD_OUT = 350  # better runs, the last ones of the design
 EPOCHS = 1000
 MEMBERS = 2
-CHEAPER = [0, 600, 2400, 4800]  # runs learnt from; the second half is denser near zero
+CHEAPER = [0, 600, 2400, 4800]  # runs learnt from; the last half is denser near zero
 BETTER = [0, 100, 200, 400]
 HARDENING = {"hardening_coefficient": 1, "immobilization_velocity": 0.2}  # above: no discs
 LABELS = {
@@ -111,25 +111,23 @@ def solver_scatter(better, repeats, names):
     return pd.DataFrame(rows)
 
 
-def compare(files, folder, cheaper, better_counts, held_out_runs):
-    """One row for each number of cheaper and better runs that a network learnt from; `files`:
-    databases of both and the settings of the training."""
-    database, better, train = files
+def compare(database, better, train, folder):
+    """One row for each number of cheaper and better runs that a network learnt from."""
     folder.mkdir(parents=True, exist_ok=True)
     with h5py.File(database) as file:
         cheap_count = len(file["run_id"])
     with h5py.File(better) as file:
         better_count = len(file["run_id"])
     held_out = folder / "held_out.h5"
-    write_rows(better, np.arange(better_count - held_out_runs, better_count), held_out)
+    write_rows(better, np.arange(better_count - HELD_OUT, better_count), held_out)
     hardening = folder / "held_out_hardening.h5"
     write_rows(held_out, hardening_rows(held_out), hardening)
     settings = {**json.loads(Path(train).read_text()), "epochs": EPOCHS, "members": MEMBERS}
     settings["validation_fraction"] = 0.15
     (folder / "train.json").write_text(json.dumps(settings))
     rows = []
-    for cheap in cheaper:
-        for good in (n for n in better_counts if n + cheap and n <= better_count - held_out_runs):
+    for cheap in CHEAPER:
+        for good in (n for n in BETTER if n + cheap and n <= better_count - HELD_OUT):
             files = []
             seconds = 0.0
             for source, count, most in [(database, cheap, cheap_count), (better, good, good)]:
@@ -155,40 +153,47 @@ def compare(files, folder, cheaper, better_counts, held_out_runs):
     return pd.DataFrame(rows)
 
 
-def draw(table, scatter, path, labels, words):
-    """`scatter`: the solver's own, or None; `words`: what the better runs are called."""
+def draw(table, scatter, path):
     figure, axes = plt.subplots(1, 2, figsize=(9, 3.8), sharex=True)
     titles = {"rms_percent": "RMS", "largest_percent": "largest"}
     for axis, (column, title) in zip(axes, titles.items()):
         for cheap, part in table.groupby("cheaper_runs"):
             line = part.sort_values("better_runs")
-            axis.plot(line["core_hours"], line[column], "o-", label=labels[cheap])
+            axis.plot(line["core_hours"], line[column], "o-", label=LABELS[cheap])
             for _, row in line.iterrows():
                 spot = (row["core_hours"], row[column])
                 text = f"{int(row['better_runs'])}"
                 axis.annotate(text, spot, (4, 4), textcoords="offset points", fontsize=8)
-        if scatter is not None:
-            floor = scatter.loc[scatter["runs"] == "all", column].item()
-            axis.axhline(floor, color="0.5", ls="--", lw=1)
-            place = {"transform": axis.get_yaxis_transform(), "va": "bottom"}
-            told = "scatter of the solver's own runs"
-            axis.text(0.02, floor, told, fontsize=8, color="0.4", **place)
+        floor = scatter.loc[scatter["runs"] == "all", column].item()
+        axis.axhline(floor, color="0.5", ls="--", lw=1)
+        axis.text(
+            0.02,
+            floor,
+            "scatter of the solver's own runs",
+            transform=axis.get_yaxis_transform(),
+            va="bottom",
+            fontsize=8,
+            color="0.4",
+        )
         axis.set_yscale("log")
         axis.set_xlabel("runs learnt from [core-hours]")
-        axis.set_ylabel(f"{title} error on held-out {words} runs [%]")
+        axis.set_ylabel(f"{title} error on held-out standard runs [%]")
         axis.grid(alpha=0.3, which="both")
-    axes[0].legend(title=f"numbers: {words} runs", fontsize=8, title_fontsize=8)
+    axes[0].legend(title="numbers: standard runs", fontsize=8, title_fontsize=8)
     figure.tight_layout()
     figure.savefig(path, dpi=110)
 
 
 if __name__ == "__main__":
-    given, made = snakemake.input, snakemake.output  # noqa: F821
-    files = (given.database, given.better, given.train)
-    found = compare(files, Path(made.table).with_suffix(""), CHEAPER, BETTER, HELD_OUT)
-    found.round(4).to_csv(made.table, index=False)
-    train = json.loads(Path(given.train).read_text())
+    found = compare(
+        snakemake.input.database,  # noqa: F821
+        snakemake.input.better,  # noqa: F821
+        snakemake.input.train,  # noqa: F821
+        Path(snakemake.output.table).with_suffix(""),  # noqa: F821
+    )
+    found.round(4).to_csv(snakemake.output.table, index=False)  # noqa: F821
+    train = json.loads(Path(snakemake.input.train).read_text())  # noqa: F821
     outputs = [output["name"] for output in train["outputs"]]
-    scatter = solver_scatter(given.better, given.repeats, outputs)
-    scatter.round(4).to_csv(made.scatter, index=False)
-    draw(found, scatter, made.figure, LABELS, "standard")
+    scatter = solver_scatter(snakemake.input.better, snakemake.input.repeats, outputs)  # noqa: F821
+    scatter.round(4).to_csv(snakemake.output.scatter, index=False)  # noqa: F821
+    draw(found, scatter, snakemake.output.figure)  # noqa: F821

@@ -1,8 +1,6 @@
 """The held-out runs of an emulator file: what the solver gave, and what each member answers."""
 
-import json
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 import pandas as pd
@@ -100,7 +98,3 @@ def check_members(model, runs, where):
                     f"{where}: {name} by its members is {apart:.2g} mm from the {key}'s in "
                     "validation.pairs. Train it again."
                 )
-
-
-def read_held_out_runs(path):
-    return held_out_runs(json.loads(Path(path).read_text()), str(path))

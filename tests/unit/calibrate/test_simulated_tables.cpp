@@ -1,3 +1,4 @@
+#include "calibrate/likelihood/common_error.hpp"
 #include "calibrate/likelihood/errors_of_shot.hpp"
 #include "calibrate/sampling/sample_posterior.hpp"
 #include "tests/unit/calibrate/toy_models.hpp"
@@ -32,6 +33,7 @@ Settings settings_of_tables() {
     settings.velocity_sd_relative = velocity_sd;
     settings.unexplained_spread = UnexplainedSpread{0.01, {0, 0.005, 0.01, 0.02}};
     settings.draws = 1500;
+    settings.network_errors = NetworkErrors::common;
     return settings;
 }
 
@@ -72,27 +74,36 @@ SimulatedTable simulate(int number, const Settings& settings,
         left -= std::exp(levels.log_mass[table.level++]);
     const ParameterSpace space(settings.parameters, {"one"});
     const RowMatrix plain = space.lot_parameters(table.unit.transpose(), 0);
-    std::vector<Shot> made;
+    std::vector<Datum> data(shots);
+    std::vector<const Datum*> lot;
     for (Eigen::Index i = 0; i < shots; ++i) {
-        Datum datum;
+        Datum& datum = data[static_cast<std::size_t>(i)];
         datum.shot = toys::shot(fmt::format("s{}", i), "one",
                                 80 + 15 * static_cast<double>(i), {});
         datum.columns = {0, 1, 2};
         datum.measured_mm = predictor.predict(datum.shot, plain).row(0).transpose();
         datum.sd_mm = Eigen::Vector3d(0.3, 0.2, 0.25);
         datum.scale_mm = datum.measured_mm;
-        const Eigen::MatrixXd covariance = with_spread(
-            fixed_covariance(settings, predictor, datum, plain.row(0).transpose()), datum,
-            levels.values[table.level]);
-        Eigen::VectorXd normal(sizes);
-        for (double& z : normal) z = random.normal(counter++);
-        const Eigen::VectorXd y =
-            datum.measured_mm +
-            Eigen::LLT<Eigen::MatrixXd>(covariance).matrixL() * normal;
-        for (std::size_t k = 0; k < settings.fit_sizes.size(); ++k)
-            datum.shot.sizes.push_back({settings.fit_sizes[k],
-                                        y(static_cast<Eigen::Index>(k)),
-                                        datum.sd_mm(static_cast<Eigen::Index>(k))});
+        lot.push_back(&datum);
+    }
+    Eigen::MatrixXd covariance =
+        lot_covariance(settings, predictor, lot, plain.row(0).transpose());
+    Eigen::VectorXd normal(shots * sizes);
+    for (Eigen::Index i = 0; i < shots; ++i) {
+        auto own = covariance.block<sizes, sizes>(i * sizes, i * sizes);
+        own = with_spread(own, data[static_cast<std::size_t>(i)],
+                          levels.values[table.level]);
+    }
+    for (double& z : normal) z = random.normal(counter++);
+    const Eigen::VectorXd error =
+        Eigen::LLT<Eigen::MatrixXd>(covariance).matrixL() * normal;
+    std::vector<Shot> made;
+    for (Eigen::Index i = 0; i < shots; ++i) {
+        Datum& datum = data[static_cast<std::size_t>(i)];
+        for (Eigen::Index k = 0; k < sizes; ++k)
+            datum.shot.sizes.push_back({settings.fit_sizes[static_cast<std::size_t>(k)],
+                                        datum.measured_mm(k) + error(i * sizes + k),
+                                        datum.sd_mm(k)});
         made.push_back(datum.shot);
     }
     table.set = make_data_set(made, settings.fit_sizes);

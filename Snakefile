@@ -7,6 +7,7 @@ configfile: "workflow/config.yaml"
 
 include: "workflow/rules/common.smk"
 include: "workflow/rules/common_revisions.smk"
+include: "workflow/rules/common_near.smk"
 include: "workflow/rules/common_signatures.smk"
 include: "workflow/rules/common_pages.smk"
 include: "workflow/rules/design.smk"
@@ -16,6 +17,7 @@ include: "workflow/rules/better.smk"
 include: "workflow/rules/outlines.smk"
 include: "workflow/rules/emulator.smk"
 include: "workflow/rules/sample.smk"
+include: "workflow/rules/near_posterior.smk"
 include: "workflow/rules/compare.smk"
 include: "workflow/rules/confirm.smk"
 include: "workflow/rules/ladder.smk"
@@ -33,6 +35,8 @@ localrules:
     better_design,
     merge,
     better,
+    near_design,
+    with_near,
     outline_basis,
     score_database,
     score_measurements,

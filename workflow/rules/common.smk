@@ -198,12 +198,6 @@ def better_chunks_of(wildcards):
     return expand(name, chunk=range(better_chunk_count(wildcards)), study=wildcards.study)
 
 
-def better_of(wildcards):
-    """The runs that correct the others, if the study has some."""
-    has_some = study_of(wildcards.study)["database"]["better"]
-    return with_scores("better")(wildcards) if has_some else []
-
-
 def best_solver_of(wildcards):
     """The solver that the network answers as."""
     better = "_better" if study_of(wildcards.study)["database"]["better"] else ""

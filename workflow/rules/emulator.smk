@@ -1,7 +1,7 @@
 rule train:
     input:
         program=ancient("build/bin/emulator"),
-        database=with_scores("database"),
+        database=database_of,
         better=better_of,
         previous=previous("emulator.json"),
         settings="results/{study}/config/train.json",

@@ -26,7 +26,7 @@ rule runs:
 rule merge:
     input:
         program=ancient("build/bin/solver"),
-        previous=previous("database.h5"),
+        previous=previous_database_of,
         chunks=chunks_of,
     output:
         "results/{study}/database.h5",

@@ -17,6 +17,7 @@ LENGTH = ["initial_diameter_mm", "length_to_diameter"]
 DIAMETER = ["initial_diameter_mm"]
 FIDELITIES = ["coarse", "standard", "fine"]
 FIRST_BETTER_RUN = 100_000_000  # beyond those of any revision: no number is used twice
+FIRST_NEAR_RUN = 150_000_000
 FIRST_FURTHER_RUN = 50_000_000  # and a million for each part: see the schema
 RUNS_OF_A_PART = 1_000_000
 OUTLINE_SCORES = [f"outline_pc_{k}" for k in range(1, 5)]  # of principal components, in mm
@@ -176,6 +177,16 @@ def further_design_settings(study: dict, part: int) -> dict:
     given = study["database"]["further"][part]
     settings |= {key: given[key] for key in ("runs", "spacing") if key in given}
     return {**settings, "first_run": FIRST_FURTHER_RUN + part * RUNS_OF_A_PART}
+
+
+def near_design_settings(study: dict) -> dict:
+    """What the runs near a first posterior depend on besides it and the table."""
+    settings = design_settings(at_revision(study, []))
+    runs = study["database"]["near_posterior"]["runs"]
+    return {key: settings[key] for key in ("seed", "parameters")} | {
+        "runs": runs,
+        "first_run": FIRST_NEAR_RUN,
+    }
 
 
 def covered_range(name: str, study: dict) -> dict:

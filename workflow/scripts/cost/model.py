@@ -71,6 +71,10 @@ def study_cost(study: dict) -> StudyCost:
     parts = [(runs, part, study["solver"]) for runs, part in zip(counts, covered, strict=True)]
     if database["better"]:
         parts.append((database["better"]["runs"], covered[0], better_settings(study)))
+    rounds = 1
+    if database["near_posterior"]:
+        rounds = 2
+        parts.append((database["near_posterior"]["runs"], covered[0], better_settings(study)))
     known = run_costs()
     seconds, shapes, used = [], [], set()
     for runs, part, solver in parts:
@@ -91,7 +95,7 @@ def study_cost(study: dict) -> StudyCost:
     return StudyCost(
         runs_s=seconds,
         shapes=shapes,
-        train_s=[one_member] * network["members"],
-        sample_s=calibration["draws"] / SAMPLED_DRAWS_PER_CPU_S,
+        train_s=[one_member * rounds] * network["members"],
+        sample_s=rounds * calibration["draws"] / SAMPLED_DRAWS_PER_CPU_S,
         measured_runs=min(known[kind].runs for kind in used),
     )

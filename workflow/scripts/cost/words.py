@@ -13,9 +13,11 @@ def cost_words(name: str, study: dict, cost: StudyCost) -> str:
     finer = (
         f", {better['runs']} of them {better['geometry']}, {better['fidelity']}" if better else ""
     )
+    near = study["database"]["near_posterior"]
+    second = f", {near['runs']} of them in a second round" if near else ""
     lines = [
         f"{name}: about {_core_hours(cost.core_hours)} before anything is there.",
-        f"  {len(cost.runs_s)} runs, {solver['geometry']}, {solver['fidelity']}{finer}: "
+        f"  {len(cost.runs_s)} runs, {solver['geometry']}, {solver['fidelity']}{finer}{second}: "
         f"{_core_hours(sum(cost.runs_s) / 3600)}, the longest {duration(longest)}",
     ]
     for shape in dict.fromkeys(cost.shapes):

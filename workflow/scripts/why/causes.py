@@ -57,7 +57,9 @@ class Causes:
     def masked(self, job: Job, told: list[str]) -> list[str]:
         """Code and rows that changed where Snakemake stopped at its first reason."""
         found = [] if "missing" in job.reasons else code_changes(job.outputs[0])
-        if job.rule == "sample" and not any("measurements" in cause for cause in told):
+        if job.rule in ("sample", "first_sample") and not any(
+            "measurements" in cause for cause in told
+        ):
             found += self._of_table(job)
         return found
 

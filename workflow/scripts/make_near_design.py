@@ -1,0 +1,80 @@
+"""Writes near_design.h5: the shots of the table with parameters near a first posterior.
+
+The first network errs, so that the values which made the table may lie beyond the posterior that
+it gives: the runs cover twice its width.
+"""
+
+from pathlib import Path
+
+import numpy as np
+
+from make_confirmation_design import shots_in_use
+from make_design import write_design
+from make_signature_design import SHOT_INPUTS, read_draws
+from measurements import read_measurements
+from stage_log import logged_to
+
+WIDER = 2  # deviations from the mean, of the posterior's
+
+PLAIN_AND_BACK = {
+    "logarithmic": (np.log, np.exp),
+    "square_root": (np.sqrt, np.square),
+    "even": (np.asarray, np.asarray),
+}
+
+
+def widened(draws: np.ndarray, lower: float, upper: float, scale: str) -> np.ndarray:
+    """Draws WIDER times as far from their mean, on the scale of the parameter, within its range."""
+    plain, back = PLAIN_AND_BACK[scale]
+    values = plain(draws)
+    mean = values.mean()
+    return np.clip(
+        back(np.clip(mean + WIDER * (values - mean), plain(lower), plain(upper))), lower, upper
+    )
+
+
+def scale_of(parameter: dict) -> str:
+    """Where its values are spread evenly, as the network sees them."""
+    if parameter["prior"] == "log_uniform":
+        return "logarithmic"
+    return "square_root" if parameter["lower"] >= 0 else "even"
+
+
+def near_design(rows: list[dict], draws: dict[str, np.ndarray], settings: dict) -> dict:
+    """Columns of the design. `settings`: runs, first_run, seed, parameters with prior and range."""
+    shots, runs = shots_in_use(rows), settings["runs"]
+    count = len(next(iter(draws.values())))
+    # Draws have no order, so that evenly spaced ones are as good as any.
+    chosen = (2 * np.arange(runs) + 1) * count // (2 * runs)
+    inputs = np.empty((runs, len(SHOT_INPUTS) + len(settings["parameters"])))
+    for run in range(runs):
+        shot = shots[run % len(shots)]
+        ratio = shot["initial_length_mm"] / shot["initial_diameter_mm"]
+        values = {**shot, "length_to_diameter": ratio}
+        inputs[run, : len(SHOT_INPUTS)] = [values[name] for name in SHOT_INPUTS]
+    lots = np.array([shots[run % len(shots)]["lot"] for run in range(runs)])
+    for column, (name, parameter) in enumerate(settings["parameters"].items(), len(SHOT_INPUTS)):
+        limits = parameter["lower"], parameter["upper"]
+        for lot in np.unique(lots):
+            own = draws[name if name in draws else f"{name}[{lot}]"]
+            members = lots == lot
+            values = widened(own, *limits, scale_of(parameter))
+            inputs[members, column] = values[chosen[members]]
+    seed = [settings["seed"], settings["first_run"]]
+    return {
+        "run_id": settings["first_run"] + np.arange(runs, dtype=np.int64),
+        "seed": np.random.default_rng(seed).integers(1, 2**31, size=runs).astype(np.int64),
+        "shape": [shots[run % len(shots)]["shape"] for run in range(runs)],
+        "inputs": inputs,
+        "names": [*SHOT_INPUTS, *settings["parameters"]],
+    }
+
+
+if __name__ == "__main__":
+    with logged_to(snakemake.log[0]):  # noqa: F821
+        columns = near_design(
+            read_measurements(Path(snakemake.input.measurements)),  # noqa: F821
+            read_draws(Path(snakemake.input.posterior)),  # noqa: F821
+            snakemake.params.settings,  # noqa: F821
+        )
+        write_design(Path(snakemake.output[0]), columns)  # noqa: F821

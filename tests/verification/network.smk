@@ -5,6 +5,7 @@
 rule network_errors:
     input:
         emulator="results/paper_design/emulator.json",
+        near=ancient("results/paper_design/near_runs.h5"),
     output:
         text="results/verification/network_errors.txt",
         table="results/verification/network_errors.csv",
@@ -32,3 +33,20 @@ rule losses:
         "results/verification/logs/losses.log",
     script:
         "studies/losses.py"
+
+
+# What the second round of runs, near a first posterior, did to network and posterior.
+rule second_round:
+    input:
+        first=ancient("results/paper_design/first_emulator.json"),
+        emulator="results/paper_design/emulator.json",
+        near=ancient("results/paper_design/near_runs.h5"),
+        first_posterior=ancient("results/paper_design/first_posterior.h5"),
+        posterior="results/paper_design/posterior.h5",
+    output:
+        text="results/verification/second_round.txt",
+        figure="results/verification/second_round.png",
+    log:
+        "results/verification/logs/second_round.log",
+    script:
+        "studies/second_round.py"

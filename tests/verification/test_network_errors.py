@@ -25,7 +25,7 @@ from error_spreads import (  # noqa: E402
     local_spread,
     log_density,
 )
-from held_out_runs import held_out_runs  # noqa: E402
+from held_out_runs import among, held_out_runs, part_of  # noqa: E402
 from loss_samples import MARGIN, learning_rate, samples_of, split, unit_scale  # noqa: E402
 from losses import words as loss_words  # noqa: E402
 from network_error_words import words  # noqa: E402
@@ -106,6 +106,21 @@ def test_an_emulator_whose_members_do_not_answer_so_is_refused():
         held_out_runs(model, "emulator.json")
 
 
+def test_runs_of_a_second_round_are_known_by_their_inputs(tmp_path):
+    runs = held_out_runs(made_up_emulator())
+    second = np.arange(RUNS) % 3 == 0
+    with h5py.File(tmp_path / "near_runs.h5", "w") as file:
+        names = list(runs.inputs.columns[::-1])
+        rows = runs.inputs[names][second].to_numpy() * (1 + 1e-6)
+        file["inputs"] = np.vstack([rows[::-1], 1.01 * rows[:1]])
+        file["inputs"].attrs.create("names", names, dtype=h5py.string_dtype())
+    found = among(runs, tmp_path / "near_runs.h5")
+    assert (found == second).all()
+    first = part_of(runs, ~found)
+    assert len(first.shapes) == len(first.inputs) == first.members.shape[1] == RUNS - second.sum()
+    assert (first.network == runs.network[~second]).all()
+
+
 def test_both_scales_of_an_error():
     solver = np.array([[1.0, 10], [3, 30], [10, 10], [10, np.nan]])
     network = solver + [[0.1, 1], [-0.1, 0], [0.2, 0], [0, 1]]
@@ -169,7 +184,8 @@ def test_the_nearest_runs_tell_the_error_without_the_run_itself():
 
 def test_the_text_tells_what_was_put_in():
     model = made_up_emulator()
-    runs, errors, _, tables = study(model, "emulator.json")
+    runs = held_out_runs(model)
+    errors, _, tables = study(runs)
     text = words(model, runs, errors, tables)
     assert "Network of 1 x 1 neurons, best of 3 members; learnt from 500 runs" in text
     assert tables["errors"].iloc[-1]["n"] == RUNS

@@ -1,4 +1,4 @@
-"""Writes runs that repeat some better ones with other grains: how far one run is from another."""
+"""Writes runs that repeat some others with other grains: how far one run is from another."""
 
 import sys
 from pathlib import Path
@@ -10,7 +10,7 @@ sys.path.append("workflow/scripts")
 
 from make_design import write_design  # noqa: E402
 
-REPEATED = 120  # the last of the better runs, which no network of the study learns from
+REPEATED = 120  # the last runs, which no network of the study learns from
 OTHER_GRAINS = 1_000_003  # added to the seed
 
 

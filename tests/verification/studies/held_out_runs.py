@@ -1,12 +1,14 @@
 """The held-out runs of an emulator file: what the solver gave, and what each member answers."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
+import h5py
 import numpy as np
 import pandas as pd
 
 PLAIN = {"linear": lambda t: t, "log10": lambda t: 10**t, "square_root": np.square}
 MOST_PAIRS = 200  # rows that `emulator train` writes into validation.pairs, at most
+SAME_INPUTS = 1e-4  # relative: single precision
 LARGEST_DISAGREEMENT = 1e-3  # of the RMS error in the file: single precision, no more
 
 
@@ -27,6 +29,24 @@ class HeldOutRuns:
     def network(self):
         """Of the member that answers, [runs x outputs]."""
         return self.members[self.best]
+
+
+def part_of(runs, rows):
+    """Some rows of held-out runs."""
+    of_rows = ("shapes", "places", "solver", "divisors")
+    parts = {name: getattr(runs, name)[rows] for name in of_rows}
+    return replace(runs, **parts, inputs=runs.inputs[rows], members=runs.members[:, rows])
+
+
+def among(runs, database):
+    """Which held-out runs are in a database, by their inputs: a run of a second round, say."""
+    with h5py.File(database) as file:
+        names = [str(name) for name in file["inputs"].attrs["names"]]
+        known = pd.DataFrame(file["inputs"][:], columns=names)[runs.inputs.columns].to_numpy()
+    found = np.zeros(len(runs.shapes), dtype=bool)
+    for row, inputs in enumerate(runs.inputs.to_numpy()):
+        found[row] = np.isclose(known, inputs, rtol=SAME_INPUTS, atol=0).all(axis=1).any()
+    return found
 
 
 def forward(layers, signal):

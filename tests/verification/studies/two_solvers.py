@@ -85,6 +85,11 @@ def sizes_of(path, names):
     return table
 
 
+def outputs_of(train):
+    """Names of the sizes that a network with these settings learns."""
+    return [output["name"] for output in json.loads(Path(train).read_text())["outputs"]]
+
+
 def solver_scatter(better, repeats, names):
     """Scatter of one run about the mean over grains [%], as the network's error is counted: of each
     output's mean by shape. No network can be nearer to single runs."""
@@ -111,23 +116,25 @@ def solver_scatter(better, repeats, names):
     return pd.DataFrame(rows)
 
 
-def compare(database, better, train, folder):
-    """One row for each number of cheaper and better runs that a network learnt from."""
+def compare(files, folder, cheaper_counts, better_counts, held_out_count):
+    """One row for each number of cheaper and better runs that a network learnt from. `files`: the
+    cheaper runs, the better ones, whose last are held out, and the settings of the training."""
+    database, better, train = files
     folder.mkdir(parents=True, exist_ok=True)
     with h5py.File(database) as file:
         cheap_count = len(file["run_id"])
     with h5py.File(better) as file:
         better_count = len(file["run_id"])
     held_out = folder / "held_out.h5"
-    write_rows(better, np.arange(better_count - HELD_OUT, better_count), held_out)
+    write_rows(better, np.arange(better_count - held_out_count, better_count), held_out)
     hardening = folder / "held_out_hardening.h5"
     write_rows(held_out, hardening_rows(held_out), hardening)
     settings = {**json.loads(Path(train).read_text()), "epochs": EPOCHS, "members": MEMBERS}
     settings["validation_fraction"] = 0.15
     (folder / "train.json").write_text(json.dumps(settings))
     rows = []
-    for cheap in CHEAPER:
-        for good in (n for n in BETTER if n + cheap and n <= better_count - HELD_OUT):
+    for cheap in cheaper_counts:
+        for good in (n for n in better_counts if n + cheap and n <= better_count - held_out_count):
             files = []
             seconds = 0.0
             for source, count, most in [(database, cheap, cheap_count), (better, good, good)]:
@@ -153,13 +160,13 @@ def compare(database, better, train, folder):
     return pd.DataFrame(rows)
 
 
-def draw(table, scatter, path):
+def draw(table, scatter, path, labels, better):
     figure, axes = plt.subplots(1, 2, figsize=(9, 3.8), sharex=True)
     titles = {"rms_percent": "RMS", "largest_percent": "largest"}
     for axis, (column, title) in zip(axes, titles.items()):
         for cheap, part in table.groupby("cheaper_runs"):
             line = part.sort_values("better_runs")
-            axis.plot(line["core_hours"], line[column], "o-", label=LABELS[cheap])
+            axis.plot(line["core_hours"], line[column], "o-", label=labels[cheap])
             for _, row in line.iterrows():
                 spot = (row["core_hours"], row[column])
                 text = f"{int(row['better_runs'])}"
@@ -177,23 +184,18 @@ def draw(table, scatter, path):
         )
         axis.set_yscale("log")
         axis.set_xlabel("runs learnt from [core-hours]")
-        axis.set_ylabel(f"{title} error on held-out standard runs [%]")
+        axis.set_ylabel(f"{title} error on held-out {better} runs [%]")
         axis.grid(alpha=0.3, which="both")
-    axes[0].legend(title="numbers: standard runs", fontsize=8, title_fontsize=8)
+    axes[0].legend(title=f"numbers: {better} runs", fontsize=8, title_fontsize=8)
     figure.tight_layout()
     figure.savefig(path, dpi=110)
 
 
 if __name__ == "__main__":
-    found = compare(
-        snakemake.input.database,  # noqa: F821
-        snakemake.input.better,  # noqa: F821
-        snakemake.input.train,  # noqa: F821
-        Path(snakemake.output.table).with_suffix(""),  # noqa: F821
-    )
-    found.round(4).to_csv(snakemake.output.table, index=False)  # noqa: F821
-    train = json.loads(Path(snakemake.input.train).read_text())  # noqa: F821
-    outputs = [output["name"] for output in train["outputs"]]
-    scatter = solver_scatter(snakemake.input.better, snakemake.input.repeats, outputs)  # noqa: F821
-    scatter.round(4).to_csv(snakemake.output.scatter, index=False)  # noqa: F821
-    draw(found, scatter, snakemake.output.figure)  # noqa: F821
+    given, made = snakemake.input, snakemake.output  # noqa: F821
+    files = (given.database, given.better, given.train)
+    found = compare(files, Path(made.table).with_suffix(""), CHEAPER, BETTER, HELD_OUT)
+    found.round(4).to_csv(made.table, index=False)
+    scatter = solver_scatter(given.better, given.repeats, outputs_of(given.train))
+    scatter.round(4).to_csv(made.scatter, index=False)
+    draw(found, scatter, made.figure, LABELS, "standard")

@@ -1,12 +1,16 @@
 # 3D runs of paper_design's ranges: do few of them correct a network of many axisymmetric ones?
+from draw_three_dimensions import settings_of
+from study import load_study
+
+
 rule three_dimensional_design:
-    input:
-        "experiments/paper_design/study.yaml",
     output:
         design="results/verification/three_dimensions/design.h5",
         settings="results/verification/three_dimensions/solver.json",
     log:
         "results/verification/logs/three_dimensional_design.log",
+    params:
+        settings=settings_of(load_study("paper_design")),
     script:
         "studies/draw_three_dimensions.py"
 

@@ -1,17 +1,15 @@
-"""Writes 3D runs over the ranges of a study, of metal that hardens: softer metal becomes a disc,
-which costs a 3D run ten minutes.
-"""
+"""Writes 3D runs over the ranges of a study, of metal that hardens."""
 
 import json
 import sys
 from pathlib import Path
 
-from two_solvers import HARDENING
+from hardening_metal import HARDENING
 
 sys.path.append("workflow/scripts")
 
 from make_design import design, write_design  # noqa: E402
-from study import design_settings, read_study  # noqa: E402
+from study import design_settings  # noqa: E402
 
 LEARNT_FROM = 352
 HELD_OUT = 352  # no network of the study learns from them
@@ -20,7 +18,7 @@ SOLVER = {"geometry": "3d", "fidelity": "coarse"}
 
 
 def settings_of(study: dict) -> dict:
-    """Of the design: the database's, above the least hardening and immobilization."""
+    """Of the design: the database's of a study, above the least hardening and immobilization."""
     settings = design_settings(study)
     for name, least in HARDENING.items():
         settings["parameters"][name]["lower"] = least
@@ -28,6 +26,6 @@ def settings_of(study: dict) -> dict:
 
 
 if __name__ == "__main__":
-    study = read_study(Path(snakemake.input[0]))  # noqa: F821
-    write_design(Path(snakemake.output.design), design(settings_of(study)))  # noqa: F821
+    columns = design(snakemake.params.settings)  # noqa: F821
+    write_design(Path(snakemake.output.design), columns)  # noqa: F821
     Path(snakemake.output.settings).write_text(json.dumps(SOLVER))  # noqa: F821

@@ -6,7 +6,7 @@ import numpy as np
 
 from error_scales import PAPER, SCALES, worst_first
 from error_spreads import HELD_OUT_UNDERSTATE, NORMAL
-from two_solvers import HARDENING
+from hardening_metal import HARDENING
 
 sys.path.append("workflow/scripts")
 from report.words import SHAPE_WORDS, SIZE_WORDS  # noqa: E402

@@ -15,12 +15,13 @@ import pandas as pd
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 
+from hardening_metal import HARDENING  # noqa: E402
+
 HELD_OUT = 350  # better runs, the last ones of the design
 EPOCHS = 1000
 MEMBERS = 2
 CHEAPER = [0, 600, 2400, 4800]  # runs learnt from; the last half is denser near zero
 BETTER = [0, 100, 200, 400]
-HARDENING = {"hardening_coefficient": 1, "immobilization_velocity": 0.2}  # above: no discs
 LABELS = {
     0: "better runs alone",
     600: "+ 600 coarse runs",
@@ -66,7 +67,7 @@ def error_of(emulator, held_out):
 
 
 def hardening_rows(path):
-    """Runs whose metal hardens: softer metal becomes a disc, which no network follows well."""
+    """Runs whose metal hardens."""
     with h5py.File(path) as file:
         names = [str(name) for name in file["inputs"].attrs["names"]]
         inputs = file["inputs"][:]

@@ -11,7 +11,8 @@ namespace {
 
 // Correlations of (solver - network) seen along the velocities of twenty metals of known
 // parameters (tests/verification, study `twins`): 0.56, 0.35, 0.21, 0.12 at 12, 24, 35,
-// 47 m/s of a range of 110 m/s, and 0.22 between shapes. The rest is grains.
+// 47 m/s of a range of 110 m/s, and 0.22 between shapes. The rest is grains. A network of
+// twice the runs has 0.52, 0.29, 0.12, 0.04 and 0.13: somewhat too careful for that one.
 constexpr double smooth_share = 0.9;
 constexpr double reach = 0.21;  // of the ranges of what tells shots apart
 constexpr double between_shapes = 0.25;

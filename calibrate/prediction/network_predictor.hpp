@@ -10,9 +10,9 @@
 namespace taylorcal::calibrate {
 
 /// The held-out runs' covariance is taken so many times, which the intervals of twenty
-/// metals of known parameters needed (tests/verification, study `twins`): of twenty other
-/// metals 50 % and 92 % are then inside the 50 % and 95 % intervals. The answering member
-/// was chosen by those runs, and its errors have longer tails than normal ones.
+/// metals of known parameters needed (tests/verification, study `twins`, which tells how
+/// many of twenty other metals are inside). The answering member was chosen by those
+/// runs, and its errors have longer tails than normal ones.
 inline constexpr double held_out_understate = 3;
 
 /// The network as the model: velocity, geometry, temperature and shape come from the

@@ -19,6 +19,7 @@ from report.words import SHAPE_WORDS, SIZE_WORDS  # noqa: E402
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter  # noqa: E402
 
 ROUNDS = {"first": "first network", "second": "with runs near its posterior"}
 COLOURS = {"first": "0.6", "second": "C0"}
@@ -111,6 +112,9 @@ def draw(runs, errors, draws, path):
         axis.plot(TRUTH[x], TRUTH[y], "r+", ms=12, mew=2)
         if x == "rho_immobile_initial":
             axis.set_xscale("log")
+            axis.xaxis.set_major_locator(LogLocator(subs=(1, 2, 4, 6)))
+            axis.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:.0e}"))
+            axis.xaxis.set_minor_formatter(NullFormatter())
         axis.set_xlabel(WORDS[x])
         axis.set_ylabel(WORDS[y])
     figure.suptitle("A second round of runs; red: what made the synthetic table", fontsize=10)

@@ -31,16 +31,18 @@ rule three_dimensional_runs:
         " --threads {threads} > {log} 2>&1"
 
 
-use rule repeat_design as three_dimensional_repeat_design with:
+rule three_dimensional_repeat_design:
     input:
         "results/verification/three_dimensions/runs.h5",
     output:
         "results/verification/three_dimensions/repeat_design.h5",
     log:
         "results/verification/logs/three_dimensional_repeat_design.log",
+    script:
+        "studies/draw_repeats.py"
 
 
-use rule three_dimensional_runs as three_dimensional_repeat_runs with:
+rule three_dimensional_repeat_runs:
     input:
         design="results/verification/three_dimensions/repeat_design.h5",
         settings="results/verification/three_dimensions/solver.json",
@@ -48,6 +50,12 @@ use rule three_dimensional_runs as three_dimensional_repeat_runs with:
         "results/verification/three_dimensions/repeats.h5",
     log:
         "results/verification/logs/three_dimensional_repeat_runs.log",
+    params:
+        code=code_of("solver"),
+    threads: workflow.cores
+    shell:
+        "build/bin/solver batch {input.design} --config {input.settings} --out {output}"
+        " --threads {threads} > {log} 2>&1"
 
 
 rule three_dimensions:

@@ -1,12 +1,11 @@
 # A second round of runs, in studies that ask for it (`database.near_posterior`): a first network
 # and posterior say where the table's answer lies, and runs there, of the solver that the network
 # answers as, join the others before the network is trained that counts.
-use rule train as first_train with:
+rule first_train:
     input:
         program=ancient("build/bin/emulator"),
         database=with_scores("database"),
         better=first_better_of,
-        previous=[],
         settings="results/{study}/config/train.json",
     output:
         "results/{study}/first_emulator.json",
@@ -14,9 +13,18 @@ use rule train as first_train with:
         "results/{study}/logs/first_train.log",
     benchmark:
         "results/{study}/benchmarks/first_train.tsv"
+    params:
+        code=code_of("emulator"),
+        better=lambda wildcards, input: f"--better {input.better}" if input.better else "",
+    threads: workflow.cores
+    shell:
+        logged(
+            "{input.program} train {input.database} --config {input.settings} {params.better}"
+            " --out {output} --threads {threads}"
+        )
 
 
-use rule sample as first_sample with:
+rule first_sample:
     input:
         program=ancient("build/bin/calibrate"),
         emulator="results/{study}/first_emulator.json",
@@ -28,6 +36,14 @@ use rule sample as first_sample with:
         "results/{study}/logs/first_sample.log",
     benchmark:
         "results/{study}/benchmarks/first_sample.tsv"
+    params:
+        code=code_of("calibrate"),
+    threads: workflow.cores
+    shell:
+        logged(
+            "{input.program} sample --emulator {input.emulator} --measurements {input.measurements}"
+            " --config {input.settings} --out {output} --threads {threads}"
+        )
 
 
 rule near_design:

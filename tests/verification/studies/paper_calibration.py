@@ -148,7 +148,7 @@ def report(emulator, posterior, log):
         [
             "                                        paper   ours",
             f"network, RMS of held-out runs, %        {PAPER['rms']:>5}   "
-            f"{100 * judged['rms_relative']:.2f}",
+            f"{100 * judged['rms_relative']:.2f}   (the second round's among them)",
             f"network, largest error, %               {PAPER['largest']:>5}   "
             f"{100 * judged['largest_relative']:.1f}",
             f"plain draws a second and core           {PAPER['rate']:>5}   {rate:.2g}",

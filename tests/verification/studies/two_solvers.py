@@ -162,7 +162,7 @@ def compare(files, folder, cheaper_counts, better_counts, held_out_count):
 
 
 def draw(table, scatter, path, labels, better):
-    figure, axes = plt.subplots(1, 2, figsize=(9, 3.8), sharex=True)
+    figure, axes = plt.subplots(1, 2, figsize=(9, 4.2), sharex=True)
     titles = {"rms_percent": "RMS", "largest_percent": "largest"}
     for axis, (column, title) in zip(axes, titles.items()):
         for cheap, part in table.groupby("cheaper_runs"):
@@ -187,8 +187,10 @@ def draw(table, scatter, path, labels, better):
         axis.set_xlabel("runs learnt from [core-hours]")
         axis.set_ylabel(f"{title} error on held-out {better} runs [%]")
         axis.grid(alpha=0.3, which="both")
-    axes[0].legend(title=f"numbers: {better} runs", fontsize=8, title_fontsize=8)
-    figure.tight_layout()
+    lines, words = axes[0].get_legend_handles_labels()
+    title = f"numbers: {better} runs"
+    figure.legend(lines, words, title=title, loc="lower center", ncol=len(words), fontsize=8)
+    figure.tight_layout(rect=(0, 0.13, 1, 1))
     figure.savefig(path, dpi=110)
 
 

@@ -14,41 +14,14 @@
 namespace taylorcal::calibrate {
 namespace {
 
-constexpr int nodes_of_profile = 13;
-constexpr double reach = 6;  // standard errors on either side of the best amplitude
+constexpr int nodes_of_profile = 25;
+constexpr double reach = 6;       // standard errors on either side of the best amplitude
+constexpr double far_below = 18;  // in ln L: six standard errors of a normal one
 constexpr Eigen::Index points_of_integral = 2001;
 
 double log_det(const Eigen::MatrixXd& matrix) {
     const Eigen::LLT<Eigen::MatrixXd> cholesky(matrix);
     return 2 * cholesky.matrixLLT().diagonal().array().log().sum();
-}
-
-/// chi^2 at fixed amplitudes (equally spaced) with the parameters refitted at each, by
-/// Gauss-Newton steps with the slopes of the best fit, all amplitudes in one batch.
-Eigen::VectorXd profile(const DiagnosisProblem& problem, const Whitening& whiten,
-                        const Refit& fit, const Eigen::VectorXd& amplitudes) {
-    constexpr int turns = 4;
-    const Eigen::Index p = fit.unit.size(), n = amplitudes.size();
-    const Eigen::VectorXd measured = whiten(problem.measured);
-    const Eigen::MatrixXd normal = fit.slope.transpose() * fit.slope;
-    const Eigen::VectorXd lower = Eigen::VectorXd::Zero(p),
-                          upper = Eigen::VectorXd::Ones(p);
-    RowMatrix units = fit.unit.transpose().replicate(n, 1);
-    Eigen::VectorXd lowest =
-        Eigen::VectorXd::Constant(n, std::numeric_limits<double>::infinity());
-    for (int turn = 0; turn <= turns; ++turn) {
-        const RowMatrix residuals =
-            (-whitened_predictions(problem, whiten, fit.effects, units, amplitudes))
-                .rowwise() +
-            measured.transpose();
-        lowest = lowest.cwiseMin(residuals.rowwise().squaredNorm());
-        for (Eigen::Index i = 0; i < n; ++i)
-            units.row(i) +=
-                bounded_step(normal, fit.slope.transpose() * residuals.row(i).transpose(),
-                             units.row(i).transpose(), lower, upper, 0)
-                    .transpose();
-    }
-    return lowest;
 }
 
 /// Cubic through the four nearest of equally spaced nodes.
@@ -67,22 +40,23 @@ struct AmplitudeLikelihood {
     Eigen::VectorXd amplitude;
     Eigen::VectorXd log_likelihood;
 
-    /// ln of the integral of prior x likelihood; fills the posterior's masses.
-    double log_integral(const Candidate& candidate, const AmplitudePrior& prior,
-                        Eigen::VectorXd& mass) const {
-        const Eigen::Index n = amplitude.size();
-        mass.resize(n);
-        for (Eigen::Index i = 0; i < n; ++i)
-            mass(i) = log_likelihood(i) + prior.log_density(amplitude(i));
-        const double highest = mass.maxCoeff();
+    /// ln of the integral of prior x likelihood.
+    double log_integral(const Candidate& candidate, const AmplitudePrior& prior) const {
+        Eigen::VectorXd log_mass = log_likelihood;
+        for (Eigen::Index i = 0; i < log_mass.size(); ++i)
+            log_mass(i) += prior.log_density(amplitude(i));
+        const double highest = log_mass.maxCoeff();
         if (!std::isfinite(highest)) return -std::numeric_limits<double>::infinity();
-        mass = (mass.array() - highest).exp();
-        mass(0) *= 0.5;
-        mass(n - 1) *= 0.5;
-        const double sum = mass.sum() * (amplitude(1) - amplitude(0));
-        mass /= mass.sum();
-        return highest + std::log(sum) -
+        return highest +
+               std::log(masses(log_mass).sum() * (amplitude(1) - amplitude(0))) -
                std::log(prior.mass(candidate.lower(), candidate.upper()));
+    }
+    /// By the trapezium rule, the largest density as 1.
+    static Eigen::VectorXd masses(const Eigen::VectorXd& log_density) {
+        Eigen::VectorXd mass = (log_density.array() - log_density.maxCoeff()).exp();
+        mass(0) *= 0.5;
+        mass(mass.size() - 1) *= 0.5;
+        return mass;
     }
 };
 
@@ -94,24 +68,49 @@ double quantile(const AmplitudeLikelihood& grid, const Eigen::VectorXd& mass,
     return grid.amplitude(mass.size() - 1);
 }
 
+/// ln of the likelihood averaged over the parameters at one amplitude of one candidate.
+double log_average_at(const DiagnosisProblem& problem, const Whitening& whiten,
+                      const Refit& from, double amplitude) {
+    const Eigen::VectorXd held = Eigen::VectorXd::Constant(1, amplitude);
+    const Refit fit = refit_parameters(problem, whiten, from.effects, from.unit, held);
+    return log_average_likelihood(fit, whiten.log_determinant());
+}
+
+/// Where the likelihood of an amplitude has fallen far below its best, on one side
+/// (`side` = -1 or 1). Six standard errors are not enough where parameters follow the
+/// amplitude along a curved ridge.
+double far_end(const DiagnosisProblem& problem, const Whitening& whiten, const Refit& fit,
+               double half, double bound, double side) {
+    const double best = log_average_likelihood(fit, whiten.log_determinant());
+    for (;; half *= 2) {
+        const double end = fit.amplitudes(0) + side * half;
+        if (side * (end - bound) >= 0) return bound;
+        if (log_average_at(problem, whiten, fit, end) < best - far_below) return end;
+    }
+}
+
 AmplitudeLikelihood amplitude_likelihood(const DiagnosisProblem& problem,
                                          const Whitening& whiten, const Refit& fit,
                                          const Candidate& candidate) {
     const double typical = std::abs(candidate.typical());
     const double known = Projector(fit.slope)(fit.effect_slope).norm() / typical;
     const double half = known > 0 ? reach / known : candidate.highest - candidate.lowest;
-    const double low = std::max(candidate.lower(), fit.amplitudes(0) - half);
-    const double high = std::min(candidate.upper(), fit.amplitudes(0) + half);
+    const double low = far_end(problem, whiten, fit, half, candidate.lower(), -1);
+    const double high = far_end(problem, whiten, fit, half, candidate.upper(), 1);
     const Eigen::VectorXd nodes = Eigen::VectorXd::LinSpaced(nodes_of_profile, low, high);
-    const Eigen::VectorXd chi2 = profile(problem, whiten, fit, nodes);
-    const double at_best = log_average_likelihood(fit, whiten.log_determinant());
+    Eigen::VectorXd at_nodes(nodes_of_profile);
+    for (Eigen::Index i = 0; i < nodes_of_profile; ++i)
+        at_nodes(i) = log_average_at(problem, whiten, fit, nodes(i));
+    // A fall without bottom, where a parameter has reached its own bound, would make a
+    // cubic swing.
+    at_nodes = at_nodes.cwiseMax(at_nodes.maxCoeff() - 2 * far_below);
     AmplitudeLikelihood grid;
     grid.amplitude = Eigen::VectorXd::LinSpaced(points_of_integral, low, high);
     grid.log_likelihood.resize(points_of_integral);
     for (Eigen::Index i = 0; i < points_of_integral; ++i) {
         const double place = static_cast<double>(i * (nodes_of_profile - 1)) /
                              static_cast<double>(points_of_integral - 1);
-        grid.log_likelihood(i) = at_best - 0.5 * (interpolate(chi2, place) - fit.chi2());
+        grid.log_likelihood(i) = interpolate(at_nodes, place);
     }
     return grid;
 }
@@ -167,14 +166,14 @@ EffectEvidence effect_evidence(const DiagnosisProblem& problem, const Whitening&
     const AmplitudeLikelihood grid =
         amplitude_likelihood(problem, *own, found.fit, candidate);
     const double without = log_average_without(problem, *own, base);
-    Eigen::VectorXd mass;
     const auto gain = [&](double factor) {
-        return grid.log_integral(candidate, candidate.prior.widened(factor), mass) -
-               without;
+        return grid.log_integral(candidate, candidate.prior.widened(factor)) - without;
     };
     found.log_gain_half_width = gain(0.5);
     found.log_gain_double_width = gain(2);
     found.log_gain = gain(1);
+    Eigen::VectorXd mass = AmplitudeLikelihood::masses(grid.log_likelihood);
+    mass /= mass.sum();
     found.mean = mass.dot(grid.amplitude);
     found.sd =
         std::sqrt(mass.dot((grid.amplitude.array() - found.mean).square().matrix()));

@@ -12,7 +12,9 @@ struct EffectEvidence {
     double log_gain = 0;  ///< ln Z_k - ln Z_0
     double log_gain_half_width = 0;
     double log_gain_double_width = 0;
-    double mean = 0;  ///< of the amplitude's posterior
+    /// Of the amplitude by the data alone: every value of its physical range is as likely
+    /// before. A prior's scale is a judgement, and would pull strong effects down.
+    double mean = 0;
     double sd = 0;
     double lower95 = 0;
     double upper95 = 0;

@@ -12,10 +12,12 @@ constexpr double amplitude_step = 0.02;  // of the typical amplitude
 constexpr int most_steps = 40;
 constexpr double most_damping = 1e8;
 
-/// Unit coordinates and amplitudes in one vector, amplitudes by their typical size.
+/// Unit coordinates and amplitudes in one vector, amplitudes by their typical size; or
+/// unit coordinates alone, the amplitudes held.
 struct Coordinates {
     Eigen::Index parameters = 0;
     Eigen::VectorXd lower, upper, size, step;
+    Eigen::VectorXd held;  ///< amplitudes; empty where they are fitted
 
     Coordinates(const DiagnosisProblem& problem, const std::vector<std::size_t>& effects,
                 Eigen::Index p)
@@ -36,6 +38,9 @@ struct Coordinates {
     RowMatrix predictions(const DiagnosisProblem& problem, const Whitening& whiten,
                           const std::vector<std::size_t>& effects,
                           const RowMatrix& points) const {
+        if (held.size() > 0)
+            return whitened_predictions(problem, whiten, effects, points,
+                                        held.transpose().replicate(points.rows(), 1));
         const Eigen::Index m = points.cols() - parameters;
         return whitened_predictions(problem, whiten, effects, points.leftCols(parameters),
                                     points.rightCols(m) * size.tail(m).asDiagonal());
@@ -59,6 +64,49 @@ Eigen::MatrixXd slopes(const DiagnosisProblem& problem, const Whitening& whiten,
         slope.col(j) = (predicted.row(2 * j) - predicted.row(2 * j + 1)).transpose() /
                        (points(2 * j, j) - points(2 * j + 1, j));
     return slope;
+}
+
+struct Minimum {
+    Eigen::VectorXd at, residual;
+    Eigen::MatrixXd slope;
+};
+
+Minimum minimise(const DiagnosisProblem& problem, const Whitening& whiten,
+                 const std::vector<std::size_t>& effects, const Coordinates& coordinates,
+                 Eigen::VectorXd at) {
+    const Eigen::VectorXd measured = whiten(problem.measured);
+    const auto residual_at = [&](const Eigen::VectorXd& point) -> Eigen::VectorXd {
+        return measured -
+               coordinates.predictions(problem, whiten, effects, point.transpose())
+                   .row(0)
+                   .transpose();
+    };
+    at = at.cwiseMax(coordinates.lower).cwiseMin(coordinates.upper);
+    Eigen::VectorXd residual = residual_at(at);
+    Eigen::MatrixXd slope = slopes(problem, whiten, effects, coordinates, at);
+    double damping = 1e-4;
+    for (int i = 0; i < most_steps; ++i) {
+        const Eigen::MatrixXd normal = slope.transpose() * slope;
+        const Eigen::VectorXd downhill = slope.transpose() * residual;
+        double gain = 0;
+        while (gain <= 0 && damping < most_damping) {
+            const Eigen::VectorXd next =
+                at + bounded_step(normal, downhill, at, coordinates.lower,
+                                  coordinates.upper, damping);
+            const Eigen::VectorXd there = residual_at(next);
+            gain = residual.squaredNorm() - there.squaredNorm();
+            damping = gain > 0 ? std::max(0.1 * damping, 1e-12) : 10 * damping;
+            if (gain > 0) {
+                at = next;
+                residual = there;
+            } else if (gain > -1e-6) {
+                break;
+            }
+        }
+        if (gain > 0) slope = slopes(problem, whiten, effects, coordinates, at);
+        if (gain < 1e-3) break;
+    }
+    return {at, residual, slope};
 }
 
 }  // namespace
@@ -123,43 +171,25 @@ Refit refit(const DiagnosisProblem& problem, const Whitening& whiten,
             const Eigen::VectorXd& amplitudes) {
     const Eigen::Index p = unit.size(), m = amplitudes.size();
     const Coordinates coordinates(problem, effects, p);
-    const Eigen::VectorXd measured = whiten(problem.measured);
-    const auto residual_at = [&](const Eigen::VectorXd& at) -> Eigen::VectorXd {
-        return measured -
-               coordinates.predictions(problem, whiten, effects, at.transpose())
-                   .row(0)
-                   .transpose();
-    };
-    Eigen::VectorXd at(p + m);
-    at << unit, amplitudes.cwiseQuotient(coordinates.size.tail(m));
-    at = at.cwiseMax(coordinates.lower).cwiseMin(coordinates.upper);
-    Eigen::VectorXd residual = residual_at(at);
-    Eigen::MatrixXd slope = slopes(problem, whiten, effects, coordinates, at);
-    double damping = 1e-4;
-    for (int i = 0; i < most_steps; ++i) {
-        const Eigen::MatrixXd normal = slope.transpose() * slope;
-        const Eigen::VectorXd downhill = slope.transpose() * residual;
-        double gain = 0;
-        while (gain <= 0 && damping < most_damping) {
-            const Eigen::VectorXd next =
-                at + bounded_step(normal, downhill, at, coordinates.lower,
-                                  coordinates.upper, damping);
-            const Eigen::VectorXd there = residual_at(next);
-            gain = residual.squaredNorm() - there.squaredNorm();
-            damping = gain > 0 ? std::max(0.1 * damping, 1e-12) : 10 * damping;
-            if (gain > 0) {
-                at = next;
-                residual = there;
-            } else if (gain > -1e-6) {
-                break;
-            }
-        }
-        if (gain > 0) slope = slopes(problem, whiten, effects, coordinates, at);
-        if (gain < 1e-3) break;
-    }
-    return {
-        effects,  at.head(p),        at.tail(m).cwiseProduct(coordinates.size.tail(m)),
-        residual, slope.leftCols(p), slope.rightCols(m)};
+    Eigen::VectorXd start(p + m);
+    start << unit, amplitudes.cwiseQuotient(coordinates.size.tail(m));
+    const Minimum least = minimise(problem, whiten, effects, coordinates, start);
+    return {effects,
+            least.at.head(p),
+            least.at.tail(m).cwiseProduct(coordinates.size.tail(m)),
+            least.residual,
+            least.slope.leftCols(p),
+            least.slope.rightCols(m)};
+}
+
+Refit refit_parameters(const DiagnosisProblem& problem, const Whitening& whiten,
+                       const std::vector<std::size_t>& effects,
+                       const Eigen::VectorXd& unit, const Eigen::VectorXd& amplitudes) {
+    Coordinates coordinates(problem, {}, unit.size());
+    coordinates.held = amplitudes;
+    const Minimum least = minimise(problem, whiten, effects, coordinates, unit);
+    return {effects,        least.at,    amplitudes,
+            least.residual, least.slope, Eigen::MatrixXd()};
 }
 
 }  // namespace taylorcal::calibrate

@@ -34,6 +34,11 @@ Refit refit(const DiagnosisProblem& problem, const Whitening& whiten,
             const std::vector<std::size_t>& effects, const Eigen::VectorXd& unit,
             const Eigen::VectorXd& amplitudes);
 
+/// The same over the parameters alone, the amplitudes held; `effect_slope` stays empty.
+Refit refit_parameters(const DiagnosisProblem& problem, const Whitening& whiten,
+                       const std::vector<std::size_t>& effects,
+                       const Eigen::VectorXd& unit, const Eigen::VectorXd& amplitudes);
+
 /// A step of the damped normal equations that stays within bounds: coordinates pressed
 /// against a bound stay there.
 Eigen::VectorXd bounded_step(const Eigen::MatrixXd& normal,

@@ -14,7 +14,7 @@ namespace taylorcal::calibrate::toys {
 /// A linear model with Gaussian errors, for which every number of a diagnosis has a
 /// closed form: y = 30 + A (u - 1/2) + sum kappa_k g_k + e, e ~ N(0, C). Two shapes,
 /// three sizes, shots over a range of velocity, errors correlated within a shot.
-struct LinearTable final : DiagnosisModel {
+struct LinearTable : DiagnosisModel {
     Eigen::MatrixXd slope;    ///< A
     Eigen::MatrixXd effects;  ///< g, a column a candidate; amplitude 1 is one prior width
     Eigen::VectorXd base;

@@ -23,6 +23,16 @@ double log_density(const Eigen::VectorXd& x, const Eigen::MatrixXd& covariance) 
             static_cast<double>(x.size()) * std::log(2 * M_PI));
 }
 
+/// Sizes that rise exponentially with the first parameter.
+struct CurvedTable final : toys::LinearTable {
+    static double h(double u) { return std::expm1(4 * (u - 0.5)) / 4; }
+    RowMatrix predict(const RowMatrix& units) const override {
+        RowMatrix bent = units;
+        bent.col(0) = units.col(0).unaryExpr([](double u) { return 0.5 + h(u); });
+        return toys::LinearTable::predict(bent);
+    }
+};
+
 }  // namespace
 
 TEST_CASE("tails of normal and chi^2 distributions have their known values", "[tail]") {
@@ -96,20 +106,56 @@ TEST_CASE("the evidence of an effect is the conjugate one", "[evidence]") {
     }
 }
 
-TEST_CASE("the amplitude's posterior is the conjugate one", "[evidence]") {
+TEST_CASE("the amplitude's interval is that of the data alone", "[evidence]") {
     toys::LinearTable table;
+    // Its prior would halve the amplitude.
+    const double sd = 1 / table.amplitude_of(table.effects.col(1), 1);
     for (Candidate& c : table.candidates)
-        c.prior = {AmplitudePrior::Kind::half_normal, 3};
+        c.prior = {AmplitudePrior::Kind::half_normal, 1 / sd};
     const ModeDiagnosis found = table.diagnose(table.draw(
         4, table.amplitude_of(table.effects.col(1), 8) * table.effects.col(1)));
     const EffectEvidence& e = *found.candidates[1].evidence;
     const double a = found.candidates[1].screening.projected.norm();
-    const double v = 1 / (1.0 / 9 + a * a),
-                 m = v * a * found.candidates[1].screening.score;
+    const double m = found.candidates[1].screening.score / a;
     CHECK(e.mean == Approx(m).epsilon(0.01));
-    CHECK(e.sd == Approx(std::sqrt(v)).epsilon(0.02));
-    CHECK(e.lower95 == Approx(m - 1.96 * std::sqrt(v)).epsilon(0.02));
-    CHECK(e.upper95 == Approx(m + 1.96 * std::sqrt(v)).epsilon(0.02));
+    CHECK(e.sd == Approx(1 / a).epsilon(0.02));
+    CHECK(e.lower95 == Approx(m - 1.96 / a).epsilon(0.02));
+    CHECK(e.upper95 == Approx(m + 1.96 / a).epsilon(0.02));
+}
+
+TEST_CASE("the amplitude's interval follows the parameters along a curved ridge",
+          "[evidence]") {
+    // The first parameter makes up for nearly all of the effect: chi^2 at an amplitude k,
+    // refitted, is (k - 5)^2 a^2, and the share of the prior there is 1/h'(u).
+    constexpr double per_amplitude = 0.1, true_amplitude = 5, true_unit = 0.65;
+    CurvedTable table;
+    table.effects.col(1) *= table.amplitude_of(table.effects.col(1), 1.0);  // a = 1
+    table.effects.col(1) -= per_amplitude * table.slope.col(0);
+    RowMatrix truth(1, 3);
+    truth << true_unit, 0.5, 0.5;
+    const Eigen::VectorXd measured =
+        table.predict(truth).row(0).transpose() + true_amplitude * table.effects.col(1);
+    const DiagnosisProblem problem = table.problem(measured);
+    const Whitening whiten(problem.covariance);
+    const Refit base =
+        refit(problem, whiten, {}, Eigen::VectorXd::Constant(3, 0.5), Eigen::VectorXd());
+    const EffectEvidence e = effect_evidence(problem, whiten, base, 1);
+    std::vector<double> amplitudes, shares;
+    double whole = 0;
+    for (double k = 0; k <= 12; k += 0.01) {
+        const double slope =
+            1 + 4 * (CurvedTable::h(true_unit) + per_amplitude * (k - true_amplitude));
+        if (slope <= std::exp(-2) || slope >= std::exp(2)) continue;
+        whole += std::exp(-0.5 * std::pow(k - true_amplitude, 2)) / slope;
+        amplitudes.push_back(k);
+        shares.push_back(whole);
+    }
+    const auto quantile = [&](double share) {
+        const auto at = std::ranges::lower_bound(shares, share * whole);
+        return amplitudes[static_cast<std::size_t>(at - shares.begin())];
+    };
+    CHECK(e.lower95 == Approx(quantile(0.025)).margin(0.1));
+    CHECK(e.upper95 == Approx(quantile(0.975)).margin(0.1));
 }
 
 TEST_CASE("a further part of the errors gains what the joint Gaussian says",

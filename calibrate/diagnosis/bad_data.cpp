@@ -32,6 +32,7 @@ class PartOfModel final : public DiagnosisModel {
         if (all.size() == 0) return all;
         return all(data_, data_);
     }
+    RunRange run_range(std::size_t k) const override { return whole_.run_range(k); }
     std::string why_unseen(std::size_t k) const override { return whole_.why_unseen(k); }
 
   private:

@@ -47,6 +47,10 @@ void weigh_candidates(const DiagnosisProblem& problem, ModeDiagnosis& mode) {
         try {
             record.evidence = effect_evidence(problem, mode.whiten, mode.base, k);
             const Refit& fit = record.evidence->fit;
+            // A fit far from none may have a sign that the score at none has not.
+            record.has_physical_sign =
+                record.has_physical_sign ||
+                problem.candidates[k].is_allowed(fit.amplitudes(0));
             record.leave_out_gain =
                 leave_out_score(problem, fit,
                                 covariance_with(problem, fit.effects, fit.amplitudes),

@@ -61,6 +61,10 @@ class CorrectedModel final : public DiagnosisModel {
     RowMatrix shift(std::size_t k, const RowMatrix& units,
                     const Eigen::VectorXd& amplitudes) const override;
     Eigen::MatrixXd shift_covariance(std::size_t k) const override;
+    /// The range over the shapes of the data, and a quarter of its half beyond: as far as
+    /// the polynomials go; of parameters at least a tenth of the prior beyond, and all of
+    /// the prior of those that the runs do not vary.
+    RunRange run_range(std::size_t k) const override;
     std::string why_unseen(std::size_t k) const override;
 
     const std::vector<const Datum*>& data() const { return data_; }
@@ -68,6 +72,8 @@ class CorrectedModel final : public DiagnosisModel {
     Eigen::VectorXd reference_of(const Datum& datum) const;
 
   private:
+    Eigen::Index position_of(Eigen::Index coordinate) const;
+
     const CorrectedPredictor& predictor_;
     const ParameterSpace& space_;
     std::vector<const Datum*> data_;

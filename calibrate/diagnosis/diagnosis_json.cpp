@@ -81,12 +81,13 @@ json candidate_json(const Candidate& c, const CandidateRecord& record, bool in_s
                           {"log_evidence_gain", e.log_gain},
                           {"log_evidence_gain_half_width", e.log_gain_half_width},
                           {"log_evidence_gain_double_width", e.log_gain_double_width},
+                          {"at_end_of_runs", e.is_at_end_of_runs},
                           {"chi2_after", e.fit.chi2()}});
     } else {
         for (const char* key :
              {"amplitude", "amplitude_sd", "lower95", "upper95", "log_evidence_gain",
               "log_evidence_gain_half_width", "log_evidence_gain_double_width",
-              "chi2_after", "leave_shape_out_gain"})
+              "at_end_of_runs", "chi2_after", "leave_shape_out_gain"})
             entry[key] = nullptr;
     }
     return entry;

@@ -237,6 +237,8 @@ std::string candidate_words(const Candidate& c, const CandidateRecord& record) {
         fmt::format("{}: {}, ln Z {:+.1f}", name, amplitude_words(c, *record.evidence),
                     record.evidence->log_gain);
     if (!record.has_physical_sign) words += ", the wrong sign";
+    if (record.evidence->is_at_end_of_runs)
+        words += ", held where its signature runs end";
     if (record.in_set)
         words += ", would explain the misfit";
     else

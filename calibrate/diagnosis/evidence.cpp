@@ -1,5 +1,6 @@
 #include "calibrate/diagnosis/evidence.hpp"
 
+#include "calibrate/diagnosis/amplitude_profile.hpp"
 #include "calibrate/diagnosis/projector.hpp"
 
 #include <algorithm>
@@ -14,25 +15,12 @@
 namespace taylorcal::calibrate {
 namespace {
 
-constexpr int nodes_of_profile = 25;
-constexpr double reach = 6;       // standard errors on either side of the best amplitude
-constexpr double far_below = 18;  // in ln L: six standard errors of a normal one
+constexpr double reach = 8;  // standard errors of a pair's amplitudes
 constexpr Eigen::Index points_of_integral = 2001;
 
 double log_det(const Eigen::MatrixXd& matrix) {
     const Eigen::LLT<Eigen::MatrixXd> cholesky(matrix);
     return 2 * cholesky.matrixLLT().diagonal().array().log().sum();
-}
-
-/// Cubic through the four nearest of equally spaced nodes.
-double interpolate(const Eigen::VectorXd& values, double place) {
-    const auto first = std::clamp<Eigen::Index>(static_cast<Eigen::Index>(place) - 1, 0,
-                                                values.size() - 4);
-    const double t = place - static_cast<double>(first);
-    const double a = values(first), b = values(first + 1), c = values(first + 2),
-                 d = values(first + 3);
-    return -a * (t - 1) * (t - 2) * (t - 3) / 6 + b * t * (t - 2) * (t - 3) / 2 -
-           c * t * (t - 1) * (t - 3) / 2 + d * t * (t - 1) * (t - 2) / 6;
 }
 
 /// The likelihood of an amplitude on a fine grid.
@@ -68,51 +56,29 @@ double quantile(const AmplitudeLikelihood& grid, const Eigen::VectorXd& mass,
     return grid.amplitude(mass.size() - 1);
 }
 
-/// ln of the likelihood averaged over the parameters at one amplitude of one candidate.
-double log_average_at(const DiagnosisProblem& problem, const Whitening& whiten,
-                      const Refit& from, double amplitude) {
-    const Eigen::VectorXd held = Eigen::VectorXd::Constant(1, amplitude);
-    const Refit fit = refit_parameters(problem, whiten, from.effects, from.unit, held);
-    return log_average_likelihood(fit, whiten.log_determinant());
-}
-
-/// Where the likelihood of an amplitude has fallen far below its best, on one side
-/// (`side` = -1 or 1). Six standard errors are not enough where parameters follow the
-/// amplitude along a curved ridge.
-double far_end(const DiagnosisProblem& problem, const Whitening& whiten, const Refit& fit,
-               double half, double bound, double side) {
-    const double best = log_average_likelihood(fit, whiten.log_determinant());
-    for (;; half *= 2) {
-        const double end = fit.amplitudes(0) + side * half;
-        if (side * (end - bound) >= 0) return bound;
-        if (log_average_at(problem, whiten, fit, end) < best - far_below) return end;
-    }
-}
-
-AmplitudeLikelihood amplitude_likelihood(const DiagnosisProblem& problem,
-                                         const Whitening& whiten, const Refit& fit,
-                                         const Candidate& candidate) {
-    const double typical = std::abs(candidate.typical());
-    const double known = Projector(fit.slope)(fit.effect_slope).norm() / typical;
-    const double half = known > 0 ? reach / known : candidate.highest - candidate.lowest;
-    const double low = far_end(problem, whiten, fit, half, candidate.lower(), -1);
-    const double high = far_end(problem, whiten, fit, half, candidate.upper(), 1);
-    const Eigen::VectorXd nodes = Eigen::VectorXd::LinSpaced(nodes_of_profile, low, high);
-    Eigen::VectorXd at_nodes(nodes_of_profile);
-    for (Eigen::Index i = 0; i < nodes_of_profile; ++i)
-        at_nodes(i) = log_average_at(problem, whiten, fit, nodes(i));
-    // A fall without bottom, where a parameter has reached its own bound, would make a
-    // cubic swing.
-    at_nodes = at_nodes.cwiseMax(at_nodes.maxCoeff() - 2 * far_below);
+AmplitudeLikelihood on_fine_grid(const AmplitudeProfile& profile) {
     AmplitudeLikelihood grid;
-    grid.amplitude = Eigen::VectorXd::LinSpaced(points_of_integral, low, high);
-    grid.log_likelihood.resize(points_of_integral);
-    for (Eigen::Index i = 0; i < points_of_integral; ++i) {
-        const double place = static_cast<double>(i * (nodes_of_profile - 1)) /
-                             static_cast<double>(points_of_integral - 1);
-        grid.log_likelihood(i) = interpolate(at_nodes, place);
-    }
+    grid.amplitude = profile.amplitudes(points_of_integral);
+    grid.log_likelihood = grid.amplitude.unaryExpr(profile);
     return grid;
+}
+
+bool is_at_end_of_runs(const DiagnosisProblem& problem, const Refit& fit) {
+    const Candidate& candidate = problem.candidates[fit.effects[0]];
+    const RunRange range = range_of(problem, fit.effects[0]);
+    const double amplitude = fit.amplitudes(0);
+    const auto holds = [](double value, double low, double high, double least,
+                          double most) {
+        const double near = 1e-6 * (high - low);
+        return (value <= low + near && low > least) ||
+               (value >= high - near && high < most);
+    };
+    if (holds(amplitude, range.lowest, range.highest, candidate.lower(),
+              candidate.upper()))
+        return true;
+    for (Eigen::Index j = 0; j < fit.unit.size(); ++j)
+        if (holds(fit.unit(j), range.lower(j), range.upper(j), 0, 1)) return true;
+    return false;
 }
 
 }  // namespace
@@ -137,18 +103,20 @@ Eigen::MatrixXd covariance_with(const DiagnosisProblem& problem,
 }
 
 double log_average_without(const DiagnosisProblem& problem, const Whitening& whiten,
-                           const Refit& base) {
-    const Refit without = refit(problem, whiten, {}, base.unit, Eigen::VectorXd());
-    return log_average_likelihood(without, whiten.log_determinant());
+                           const Refit& base, const Refit& fit) {
+    double highest = -std::numeric_limits<double>::infinity();
+    for (const Eigen::VectorXd& start : {base.unit, fit.unit}) {
+        const Refit without = refit(problem, whiten, {}, start, Eigen::VectorXd());
+        highest =
+            std::max(highest, log_average_likelihood(without, whiten.log_determinant()));
+    }
+    return highest;
 }
 
-Refit refit_with(const DiagnosisProblem& problem, std::optional<Whitening>& whiten,
-                 const std::vector<std::size_t>& effects, const Refit& base) {
-    Eigen::VectorXd start(static_cast<Eigen::Index>(effects.size()));
-    for (std::size_t e = 0; e < effects.size(); ++e)
-        start(static_cast<Eigen::Index>(e)) =
-            0.1 * problem.candidates[effects[e]].typical();
-    Refit fit = refit(problem, *whiten, effects, base.unit, start);
+Refit refit_from(const DiagnosisProblem& problem, std::optional<Whitening>& whiten,
+                 const std::vector<std::size_t>& effects, const Eigen::VectorXd& unit,
+                 const Eigen::VectorXd& amplitudes) {
+    Refit fit = refit(problem, *whiten, effects, unit, amplitudes);
     bool has_errors = false;
     for (const std::size_t k : effects)
         has_errors = has_errors || problem.model.shift_covariance(k).size() > 0;
@@ -157,15 +125,26 @@ Refit refit_with(const DiagnosisProblem& problem, std::optional<Whitening>& whit
     return refit(problem, *whiten, effects, fit.unit, fit.amplitudes);
 }
 
+Refit refit_with(const DiagnosisProblem& problem, std::optional<Whitening>& whiten,
+                 const std::vector<std::size_t>& effects, const Refit& base) {
+    Eigen::VectorXd start(static_cast<Eigen::Index>(effects.size()));
+    for (std::size_t e = 0; e < effects.size(); ++e)
+        start(static_cast<Eigen::Index>(e)) =
+            0.1 * problem.candidates[effects[e]].typical();
+    return refit_from(problem, whiten, effects, base.unit, start);
+}
+
 EffectEvidence effect_evidence(const DiagnosisProblem& problem, const Whitening& whiten,
                                const Refit& base, std::size_t k) {
     const Candidate& candidate = problem.candidates[k];
     std::optional<Whitening> own = whiten;
+    Refit near = refit_with(problem, own, {k}, base);
+    const AmplitudeProfile profile(problem, base, {std::move(near), std::move(*own)});
+    const AmplitudeLikelihood grid = on_fine_grid(profile);
     EffectEvidence found;
-    found.fit = refit_with(problem, own, {k}, base);
-    const AmplitudeLikelihood grid =
-        amplitude_likelihood(problem, *own, found.fit, candidate);
-    const double without = log_average_without(problem, *own, base);
+    found.fit = profile.best().fit;
+    const double without =
+        log_average_without(problem, profile.best().whiten, base, found.fit);
     const auto gain = [&](double factor) {
         return grid.log_integral(candidate, candidate.prior.widened(factor)) - without;
     };
@@ -179,6 +158,7 @@ EffectEvidence effect_evidence(const DiagnosisProblem& problem, const Whitening&
         std::sqrt(mass.dot((grid.amplitude.array() - found.mean).square().matrix()));
     found.lower95 = quantile(grid, mass, 0.025);
     found.upper95 = quantile(grid, mass, 0.975);
+    found.is_at_end_of_runs = is_at_end_of_runs(problem, found.fit);
     return found;
 }
 
@@ -201,7 +181,7 @@ double pair_evidence(const DiagnosisProblem& problem, const Whitening& whiten,
     const Eigen::Matrix2d covariance = narrowed.inverse();
     const Eigen::Vector2d mean = covariance * (precision * fit.amplitudes + uphill);
     const auto axis = [&](const Candidate& c, Eigen::Index e) {
-        const double half = (reach + 2) * std::sqrt(covariance(e, e));
+        const double half = reach * std::sqrt(covariance(e, e));
         return Eigen::VectorXd(Eigen::VectorXd::LinSpaced(
             points, std::max(c.lower(), std::min(mean(e), c.upper()) - half),
             std::min(c.upper(), std::max(mean(e), c.lower()) + half)));
@@ -218,7 +198,7 @@ double pair_evidence(const DiagnosisProblem& problem, const Whitening& whiten,
     const double highest = log_mass.maxCoeff();
     const double cell = (a(1) - a(0)) * (b(1) - b(0));
     return log_average_likelihood(fit, whiten.log_determinant()) -
-           log_average_without(problem, whiten, base) + highest +
+           log_average_without(problem, whiten, base, fit) + highest +
            std::log((log_mass.array() - highest).exp().sum() * cell) -
            std::log(first.prior.mass(first.lower(), first.upper())) -
            std::log(second.prior.mass(second.lower(), second.upper()));

@@ -14,10 +14,13 @@ struct EffectEvidence {
     double log_gain_double_width = 0;
     /// Of the amplitude by the data alone: every value of its physical range is as likely
     /// before. A prior's scale is a judgement, and would pull strong effects down.
+    /// Two places that fit alike lie both in the interval.
     double mean = 0;
     double sd = 0;
     double lower95 = 0;
     double upper95 = 0;
+    /// Whether the fit is held where its paired runs end, short of the ranges.
+    bool is_at_end_of_runs = false;
 };
 
 /// ln of the likelihood averaged over the parameters about a fit, by Laplace's
@@ -25,18 +28,25 @@ struct EffectEvidence {
 /// the data do not feel counts with its prior's width.
 double log_average_likelihood(const Refit& fit, double log_determinant);
 
-/// The same without any candidate, refitted from `base`. Under the errors of a
-/// candidate's signature, for the evidence of one must not come from wider errors.
+/// The same without any candidate, refitted from `base` and from the parameters of `fit`
+/// with the candidate: the higher one, for a better start is no evidence. Under the
+/// errors of a candidate's signature, for the evidence of one must not come from wider
+/// errors.
 double log_average_without(const DiagnosisProblem& problem, const Whitening& whiten,
-                           const Refit& base);
+                           const Refit& base, const Refit& fit);
 
 /// C with the errors of the effects' signatures at their amplitudes.
 Eigen::MatrixXd covariance_with(const DiagnosisProblem& problem,
                                 const std::vector<std::size_t>& effects,
                                 const Eigen::VectorXd& amplitudes);
 
-/// Refits parameters and amplitudes together; where signatures have errors, once more
-/// with the errors at that amplitude in `whiten`.
+/// Refits parameters and amplitudes together, from `unit` and `amplitudes`; where
+/// signatures have errors, once more with the errors at that amplitude in `whiten`.
+Refit refit_from(const DiagnosisProblem& problem, std::optional<Whitening>& whiten,
+                 const std::vector<std::size_t>& effects, const Eigen::VectorXd& unit,
+                 const Eigen::VectorXd& amplitudes);
+
+/// The same from a fit without the effects.
 Refit refit_with(const DiagnosisProblem& problem, std::optional<Whitening>& whiten,
                  const std::vector<std::size_t>& effects, const Refit& base);
 

@@ -26,6 +26,12 @@ struct ShotLabel {
     double velocity_m_s = 0;
 };
 
+/// Where a candidate's signature rests on paired runs; beyond, nothing is known of it.
+struct RunRange {
+    double lowest, highest;        ///< amplitudes
+    Eigen::VectorXd lower, upper;  ///< of the unit coordinates
+};
+
 /// The model seen from the data: all measured numbers as functions of the calibrated
 /// parameters (a point of the unit cube) and of the candidates' amplitudes. Must be safe
 /// to call from threads.
@@ -40,6 +46,8 @@ class DiagnosisModel {
     /// Covariance [mm^2] of the error of `shift` at amplitude 1 (it grows with the
     /// square); no rows: none.
     virtual Eigen::MatrixXd shift_covariance(std::size_t k) const = 0;
+    /// What the paired runs of candidate `k` span.
+    virtual RunRange run_range(std::size_t k) const = 0;
     /// Why candidate `k` could not be seen with these data; empty: it could.
     virtual std::string why_unseen(std::size_t k) const = 0;
 };

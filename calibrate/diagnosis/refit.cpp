@@ -27,13 +27,18 @@ struct Coordinates {
         upper = size = Eigen::VectorXd::Ones(n);
         step = Eigen::VectorXd::Constant(n, unit_step);
         for (Eigen::Index e = p; e < n; ++e) {
-            const Candidate& c =
-                problem.candidates[effects[static_cast<std::size_t>(e - p)]];
-            size(e) = std::abs(c.typical());
-            lower(e) = c.lower() / size(e);
-            upper(e) = c.upper() / size(e);
+            const std::size_t k = effects[static_cast<std::size_t>(e - p)];
+            const RunRange range = range_of(problem, k);
+            size(e) = std::abs(problem.candidates[k].typical());
+            lower(e) = range.lowest / size(e);
+            upper(e) = range.highest / size(e);
             step(e) = amplitude_step;
+            keep_parameters(range);
         }
+    }
+    void keep_parameters(const RunRange& range) {
+        lower.head(parameters) = lower.head(parameters).cwiseMax(range.lower);
+        upper.head(parameters) = upper.head(parameters).cwiseMin(range.upper);
     }
     RowMatrix predictions(const DiagnosisProblem& problem, const Whitening& whiten,
                           const std::vector<std::size_t>& effects,
@@ -111,6 +116,13 @@ Minimum minimise(const DiagnosisProblem& problem, const Whitening& whiten,
 
 }  // namespace
 
+RunRange range_of(const DiagnosisProblem& problem, std::size_t k) {
+    RunRange range = problem.model.run_range(k);
+    range.lowest = std::max(range.lowest, problem.candidates[k].lower());
+    range.highest = std::min(range.highest, problem.candidates[k].upper());
+    return range;
+}
+
 Eigen::MatrixXd Refit::all_slopes() const {
     Eigen::MatrixXd all(slope.rows(), slope.cols() + effect_slope.cols());
     all << slope, effect_slope;
@@ -187,6 +199,7 @@ Refit refit_parameters(const DiagnosisProblem& problem, const Whitening& whiten,
                        const Eigen::VectorXd& unit, const Eigen::VectorXd& amplitudes) {
     Coordinates coordinates(problem, {}, unit.size());
     coordinates.held = amplitudes;
+    for (const std::size_t k : effects) coordinates.keep_parameters(range_of(problem, k));
     const Minimum least = minimise(problem, whiten, effects, coordinates, unit);
     return {effects,        least.at,    amplitudes,
             least.residual, least.slope, Eigen::MatrixXd()};

@@ -23,13 +23,16 @@ struct Refit {
     Eigen::MatrixXd all_slopes() const;
 };
 
+/// What paired runs of candidate `k` span, its amplitude within its physical range.
+RunRange range_of(const DiagnosisProblem& problem, std::size_t k);
+
 /// Whitened predictions of rows of (unit, amplitudes), a row each.
 RowMatrix whitened_predictions(const DiagnosisProblem& problem, const Whitening& whiten,
                                const std::vector<std::size_t>& effects,
                                const RowMatrix& units, const RowMatrix& amplitudes);
 
-/// Least squares by Levenberg-Marquardt within the unit cube and the amplitudes' physical
-/// ranges, from `unit` and `amplitudes`.
+/// Least squares by Levenberg-Marquardt from `unit` and `amplitudes`: within the unit
+/// cube, and with effects within what their paired runs span.
 Refit refit(const DiagnosisProblem& problem, const Whitening& whiten,
             const std::vector<std::size_t>& effects, const Eigen::VectorXd& unit,
             const Eigen::VectorXd& amplitudes);

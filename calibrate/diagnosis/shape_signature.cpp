@@ -86,9 +86,14 @@ std::optional<ShapeSignature> shape_signature(const PairedRuns& runs,
     };
     signature.inputs.resize(static_cast<Eigen::Index>(bases.size()),
                             inputs_of(runs.bases[bases.front()]).size());
-    for (std::size_t i = 0; i < bases.size(); ++i)
-        signature.inputs.row(static_cast<Eigen::Index>(i)) =
-            inputs_of(runs.bases[bases[i]]).transpose();
+    signature.parameters.resize(static_cast<Eigen::Index>(bases.size()),
+                                runs.bases[bases.front()].parameters.size());
+    for (std::size_t i = 0; i < bases.size(); ++i) {
+        const BaseRun& run = runs.bases[bases[i]];
+        const auto at = static_cast<Eigen::Index>(i);
+        signature.inputs.row(at) = inputs_of(run).transpose();
+        signature.parameters.row(at) = run.parameters.transpose();
+    }
     signature.scaling = InputScaling(signature.inputs);
 
     // The finest runs there are say what the network lacks; too few of them, the base
@@ -120,9 +125,13 @@ std::optional<ShapeSignature> shape_signature(const PairedRuns& runs,
     signature.descriptors = descriptors.fit().value_or(SmoothFit{});
 
     std::vector<Rows> effects(candidates.size());
+    signature.amplitudes.resize(candidates.size());
     for (const EffectRun& run : runs.effects) {
         const BaseRun& base = runs.bases[run.base];
         if (base.shot.shape != shape) continue;
+        auto& [lowest, highest] = signature.amplitudes[run.candidate];
+        lowest = std::min(lowest, run.amplitude);
+        highest = std::max(highest, run.amplitude);
         const double amplitude =
             run.amplitude / std::abs(candidates[run.candidate].typical());
         effects[run.candidate].add(

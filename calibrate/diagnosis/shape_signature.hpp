@@ -6,6 +6,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace taylorcal::calibrate {
@@ -25,7 +26,10 @@ struct ShapeSignature {
     std::optional<SmoothFit> resolution;            ///< finer - present fidelity
     SmoothFit descriptors;
     std::size_t points = 0;
-    Eigen::MatrixXd inputs;  ///< of the base runs, unscaled
+    Eigen::MatrixXd inputs;      ///< of the base runs, unscaled
+    Eigen::MatrixXd parameters;  ///< of the base runs, plain
+    /// Lowest and highest amplitude run of each candidate, 0 among them.
+    std::vector<std::pair<double, double>> amplitudes;
 
     /// Position of a fitted size in the fits' outputs, or -1.
     Eigen::Index output_of(Eigen::Index size) const;

@@ -9,7 +9,6 @@
 namespace taylorcal::calibrate {
 namespace {
 
-constexpr double room = 1.25;
 constexpr std::array ridges{0.01, 0.1, 1.0, 10.0};
 /// A richer polynomial must lower the error by this factor to be preferred.
 constexpr double worth_a_term = 0.95;
@@ -74,7 +73,7 @@ InputScaling::InputScaling(const Eigen::MatrixXd& points) {
 
 Eigen::VectorXd InputScaling::operator()(const Eigen::VectorXd& point) const {
     const Eigen::VectorXd scaled = (point - middle_).cwiseQuotient(half_);
-    return scaled(kept_).cwiseMax(-room).cwiseMin(room);
+    return scaled(kept_).cwiseMax(-extrapolated).cwiseMin(extrapolated);
 }
 
 Eigen::VectorXd SmoothTerms::operator()(const Eigen::VectorXd& scaled,

@@ -7,6 +7,8 @@
 namespace taylorcal::calibrate {
 
 inline constexpr Eigen::Index fewest_points = 4;
+/// Polynomials hold beyond the range of their points by a quarter.
+inline constexpr double extrapolated = 1.25;
 
 /// Inputs brought to about [-1, 1] by the range of the points they were fitted on. The
 /// first input (velocity) is always kept; others only if they vary. Beyond the range by

@@ -128,6 +128,10 @@ struct LinearTable : DiagnosisModel {
         return amplitudes * effects.col(static_cast<Eigen::Index>(k)).transpose();
     }
     Eigen::MatrixXd shift_covariance(std::size_t) const override { return {}; }
+    RunRange run_range(std::size_t k) const override {
+        return {candidates[k].lower(), candidates[k].upper(), Eigen::VectorXd::Zero(3),
+                Eigen::VectorXd::Ones(3)};
+    }
     std::string why_unseen(std::size_t) const override { return ""; }
 };
 

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Dense>
@@ -32,6 +34,58 @@ struct CurvedTable final : toys::LinearTable {
         return toys::LinearTable::predict(bent);
     }
 };
+
+/// A table whose second effect is no straight line in its amplitude.
+struct BentTable final : toys::LinearTable {
+    std::function<double(double)> shift_of;
+    RunRange runs{0, 10, Eigen::VectorXd::Zero(3), Eigen::VectorXd::Ones(3)};
+
+    BentTable() {
+        candidates[1].highest = 10;
+        candidates[1].prior.scale = 4;
+    }
+    double signature_sd = 0;  ///< of a shift's share, a unit of amplitude
+
+    RunRange run_range(std::size_t) const override { return runs; }
+    Eigen::MatrixXd shift_covariance(std::size_t k) const override {
+        if (signature_sd == 0) return {};
+        const auto g = effects.col(static_cast<Eigen::Index>(k));
+        return signature_sd * signature_sd * g * g.transpose();
+    }
+    RowMatrix shift(std::size_t k, const RowMatrix& units,
+                    const Eigen::VectorXd& amplitudes) const override {
+        return toys::LinearTable::shift(k, units, amplitudes.unaryExpr(shift_of));
+    }
+    /// Of data without noise, a shift of 1 standing out by `sigma`.
+    EffectEvidence evidence_of(double amplitude, double sigma) {
+        effects.col(1) *= amplitude_of(effects.col(1), sigma);
+        const DiagnosisProblem problem =
+            this->problem(base + shift_of(amplitude) * effects.col(1));
+        const Whitening whiten(problem.covariance);
+        const Refit without = refit(problem, whiten, {},
+                                    Eigen::VectorXd::Constant(3, 0.5), Eigen::VectorXd());
+        return effect_evidence(problem, whiten, without, 1);
+    }
+    EffectEvidence evidence_without_limits(double amplitude, double sigma) {
+        runs = {0, 10, Eigen::VectorXd::Zero(3), Eigen::VectorXd::Ones(3)};
+        return evidence_of(amplitude, sigma);
+    }
+};
+
+/// The middle 95 % of exp(-chi2/2) from 0 to `highest`.
+template <class Chi2>
+std::pair<double, double> interval_of(Chi2 chi2, double highest) {
+    std::vector<double> shares;
+    double whole = 0;
+    constexpr int steps = 20000;
+    for (int i = 0; i <= steps; ++i)
+        shares.push_back(whole += std::exp(-0.5 * chi2(highest * i / steps)));
+    const auto at = [&](double share) {
+        const auto found = std::ranges::lower_bound(shares, share * whole);
+        return highest * static_cast<double>(found - shares.begin()) / steps;
+    };
+    return {at(0.025), at(0.975)};
+}
 
 }  // namespace
 
@@ -156,6 +210,87 @@ TEST_CASE("the amplitude's interval follows the parameters along a curved ridge"
     };
     CHECK(e.lower95 == Approx(quantile(0.025)).margin(0.1));
     CHECK(e.upper95 == Approx(quantile(0.975)).margin(0.1));
+}
+
+TEST_CASE("the fit moves to a better place far from where it starts", "[evidence]") {
+    // Small amplitudes shift the data the wrong way, so that the nearest optimum is none.
+    BentTable table;
+    table.shift_of = [](double k) { return k * (k - 2) / 15; };
+    constexpr double sigma = 8, true_amplitude = 5;
+    const EffectEvidence e = table.evidence_of(true_amplitude, sigma);
+    CHECK(e.fit.amplitudes(0) == Approx(true_amplitude).epsilon(1e-3));
+    CHECK(e.fit.chi2() == Approx(0).margin(1e-3));
+    CHECK(e.mean == Approx(true_amplitude).epsilon(0.01));
+    const auto chi2 = [&](double k) {
+        return std::pow(sigma * (table.shift_of(k) - table.shift_of(true_amplitude)), 2);
+    };
+    const auto [lower, upper] = interval_of(chi2, 10);
+    CHECK(e.lower95 == Approx(lower).epsilon(0.01));
+    CHECK(e.upper95 == Approx(upper).epsilon(0.01));
+    // Its evidence is that of the whole likelihood, by the trapezium rule.
+    double integral = 0;
+    const AmplitudePrior& prior = table.candidates[1].prior;
+    for (double k = 0; k <= 10; k += 1e-3)
+        integral += 1e-3 * std::exp(prior.log_density(k) - 0.5 * chi2(k));
+    CHECK(e.log_gain == Approx(std::log(integral) + 0.5 * chi2(0)).margin(0.03));
+}
+
+TEST_CASE("of two places that fit alike the interval covers both", "[evidence]") {
+    BentTable table;
+    table.shift_of = [](double k) { return k * (10 - k) / 16; };
+    const EffectEvidence e = table.evidence_of(2, 8);  // as good as 8
+    const auto [lower, upper] = interval_of(
+        [&](double k) {
+            return std::pow(8 * (table.shift_of(k) - table.shift_of(2)), 2);
+        },
+        10);
+    REQUIRE(lower < 2);
+    REQUIRE(upper > 8);
+    CHECK(e.lower95 == Approx(lower).margin(0.05));
+    CHECK(e.upper95 == Approx(upper).margin(0.05));
+}
+
+TEST_CASE("a far place that only its signature's errors spoil is left out",
+          "[evidence]") {
+    // 0.84 of the shift at an amplitude of 1.4, all of it at 6.
+    BentTable table;
+    table.shift_of = [](double k) {
+        return k * (1.4066666666666667 + k * (-0.6866666666666667 + 0.08 * k));
+    };
+    const EffectEvidence exact = table.evidence_of(6, 8);
+    CHECK(exact.fit.amplitudes(0) == Approx(6).epsilon(1e-3));
+    CHECK(exact.lower95 < 3);
+    CHECK(exact.upper95 > 5.9);
+    // Errors of a fifth of an amplitude's shift leave little of the gain at 6.
+    table.signature_sd = 0.03;
+    const EffectEvidence e = table.evidence_of(6, 8);
+    CHECK(e.fit.amplitudes(0) == Approx(1.36).margin(0.05));
+    CHECK(e.lower95 > 0.5);
+    CHECK(e.upper95 < 3);
+}
+
+TEST_CASE("nothing is found where no paired run is", "[evidence]") {
+    BentTable table;
+    table.shift_of = [](double k) { return k * (k - 2) / 15; };
+    table.runs.highest = 1.5;  // the better place lies beyond
+    const EffectEvidence e = table.evidence_of(5, 8);
+    CHECK(e.fit.amplitudes(0) == Approx(0).margin(1e-6));
+    CHECK(e.upper95 <= 1.5);
+    CHECK_FALSE(e.is_at_end_of_runs);
+    CHECK(e.log_gain < 0);
+    // A fit that would go on is held, and says so.
+    table.shift_of = [](double k) { return k / 5; };
+    const EffectEvidence held = table.evidence_of(5, 8);
+    CHECK(held.fit.amplitudes(0) == Approx(1.5));
+    CHECK(held.is_at_end_of_runs);
+    // Parameters of the fit stay within those of the runs too; without the effect they
+    // need not.
+    table.runs.highest = 10;
+    table.runs.lower(0) = 0.55;
+    const EffectEvidence shifted = table.evidence_of(5, 8);
+    CHECK(shifted.fit.unit(0) == Approx(0.55));
+    CHECK(shifted.is_at_end_of_runs);
+    CHECK(shifted.log_gain < table.evidence_without_limits(5, 8).log_gain - 10);
 }
 
 TEST_CASE("a further part of the errors gains what the joint Gaussian says",

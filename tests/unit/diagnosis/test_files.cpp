@@ -172,6 +172,17 @@ TEST_CASE("an effect in the data is found through the files", "[study]") {
     CHECK(written["residuals"].size() == 24);
 }
 
+TEST_CASE("an amplitude beyond its paired runs is not found", "[study]") {
+    json written;
+    ToyStudy(0.4).diagnose(paired_rows(), &written);  // run at 0.1 and 0.2
+    const json& best = written["candidates"][0];
+    CHECK(best["name"] == "friction");
+    CHECK(best["amplitude"].get<double>() == Approx(0.225));
+    CHECK(best["at_end_of_runs"] == true);
+    CHECK_THAT(best["words"].get<std::string>(),
+               Contains("held where its signature runs end"));
+}
+
 TEST_CASE("the network's own error is no physics", "[study]") {
     int flagged = 0;
     for (std::uint64_t seed = 1; seed <= 20; ++seed)

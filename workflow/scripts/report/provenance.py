@@ -38,7 +38,7 @@ def _files(name: str, inputs: dict[str, Path]) -> list[tuple[str, str]]:
 
 STAGES_OF = {
     "database": ["runs", "further_runs", "merge"],
-    "emulator": ["train"],
+    "emulator": ["better_runs", "first_train", "first_sample", "near_runs", "train"],
     "posterior": ["sample"],
     "comparison": ["compare"],
 }

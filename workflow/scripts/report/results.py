@@ -148,7 +148,8 @@ def _run_costs(path: Path) -> list[float]:
         return [float(row["cpu_s"]) for row in csv.DictReader(file)]
 
 
-STAGES = ["design", "runs", "further_runs", "merge", "train", "sample", "compare"]
+STAGES = ["design", "runs", "further_runs", "merge", "better_runs"]
+STAGES += ["first_train", "first_sample", "near_runs", "train", "sample", "compare"]
 
 
 def _stage_costs(folder: Path) -> list[dict]:

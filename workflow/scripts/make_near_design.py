@@ -17,31 +17,25 @@ from stage_log import logged_to
 WIDER = 2  # deviations from the mean, of the posterior's
 
 PLAIN_AND_BACK = {
-    "logarithmic": (np.log, np.exp),
+    "log10": (np.log, np.exp),
     "square_root": (np.sqrt, np.square),
-    "even": (np.asarray, np.asarray),
+    "linear": (np.asarray, np.asarray),
 }
 
 
-def widened(draws: np.ndarray, lower: float, upper: float, scale: str) -> np.ndarray:
-    """Draws WIDER times as far from their mean, on the scale of the parameter, within its range."""
-    plain, back = PLAIN_AND_BACK[scale]
+def widened(draws: np.ndarray, parameter: dict) -> np.ndarray:
+    """Draws WIDER times as far from their mean, as the network sees them, within the range."""
+    plain, back = PLAIN_AND_BACK[parameter["transform"]]
+    lower, upper = parameter["lower"], parameter["upper"]
     values = plain(draws)
     mean = values.mean()
-    return np.clip(
-        back(np.clip(mean + WIDER * (values - mean), plain(lower), plain(upper))), lower, upper
-    )
-
-
-def scale_of(parameter: dict) -> str:
-    """Where its values are spread evenly, as the network sees them."""
-    if parameter["prior"] == "log_uniform":
-        return "logarithmic"
-    return "square_root" if parameter["lower"] >= 0 else "even"
+    wide = np.clip(mean + WIDER * (values - mean), plain(lower), plain(upper))
+    return np.clip(back(wide), lower, upper)  # rounding must not leave the range
 
 
 def near_design(rows: list[dict], draws: dict[str, np.ndarray], settings: dict) -> dict:
-    """Columns of the design. `settings`: runs, first_run, seed, parameters with prior and range."""
+    """Columns of the design. `settings`: runs, first_run, seed, parameters with their ranges and
+    transforms."""
     shots, runs = shots_in_use(rows), settings["runs"]
     count = len(next(iter(draws.values())))
     # Draws have no order, so that evenly spaced ones are as good as any.
@@ -54,11 +48,10 @@ def near_design(rows: list[dict], draws: dict[str, np.ndarray], settings: dict) 
         inputs[run, : len(SHOT_INPUTS)] = [values[name] for name in SHOT_INPUTS]
     lots = np.array([shots[run % len(shots)]["lot"] for run in range(runs)])
     for column, (name, parameter) in enumerate(settings["parameters"].items(), len(SHOT_INPUTS)):
-        limits = parameter["lower"], parameter["upper"]
         for lot in np.unique(lots):
             own = draws[name if name in draws else f"{name}[{lot}]"]
             members = lots == lot
-            values = widened(own, *limits, scale_of(parameter))
+            values = widened(own, parameter)
             inputs[members, column] = values[chosen[members]]
     seed = [settings["seed"], settings["first_run"]]
     return {

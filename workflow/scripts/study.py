@@ -181,12 +181,13 @@ def further_design_settings(study: dict, part: int) -> dict:
 
 def near_design_settings(study: dict) -> dict:
     """What the runs near a first posterior depend on besides it and the table."""
-    settings = design_settings(at_revision(study, []))
-    runs = study["database"]["near_posterior"]["runs"]
-    return {key: settings[key] for key in ("seed", "parameters")} | {
-        "runs": runs,
-        "first_run": FIRST_NEAR_RUN,
+    parameters = {
+        name: {"transform": "linear", **covered_range(name, study), **_transform_of(parameter)}
+        for name, parameter in study["parameters"].items()
     }
+    settings = {"seed": study["database"]["seed"], "parameters": parameters}
+    runs = study["database"]["near_posterior"]["runs"]
+    return {**settings, "runs": runs, "first_run": FIRST_NEAR_RUN}
 
 
 def covered_range(name: str, study: dict) -> dict:

@@ -7,6 +7,7 @@ import numpy as np
 import pandas as pd
 
 PLAIN = {"linear": lambda t: t, "log10": lambda t: 10**t, "square_root": np.square}
+SEEN = {"linear": lambda t: t, "log10": np.log10, "square_root": np.sqrt}  # as the network does
 MOST_PAIRS = 200  # rows that `emulator train` writes into validation.pairs, at most
 SAME_INPUTS = 1e-4  # relative: single precision
 LARGEST_DISAGREEMENT = 1e-3  # of the RMS error in the file: single precision, no more
@@ -70,6 +71,25 @@ def plain_inputs(infos, places):
     return pd.DataFrame(columns)
 
 
+def standardised(infos, inputs):
+    """Places [runs x used inputs] of plain inputs (a table): what `plain_inputs` undoes."""
+    used = [info for info in infos if info["used"]]
+    seen = [SEEN[info["transform"]](inputs[info["name"]]) for info in used]
+    return np.array([(one - info["shift"]) / info["scale"] for one, info in zip(seen, used)]).T
+
+
+def answers(model, places, shapes):
+    """All members' outputs [members x runs x outputs], divided as theirs are."""
+    hot = shapes[:, None] == np.array(model["category"]["values"])
+    # The column for runs of a cheaper solver is zero here.
+    cheaper = np.zeros((len(shapes), int(model["corrects_cheaper_runs"])))
+    signal = np.hstack([places, hot, cheaper])
+    scale = np.array([output["scale"] for output in model["outputs"]])
+    shift = np.array([output["shift"] for output in model["outputs"]])
+    members = np.array([forward(one["layers"], signal) for one in model["members"]])
+    return members * scale + shift
+
+
 def held_out_runs(model, where="the emulator"):
     """`model`: the document of an emulator file, in the format of its `recipe`. ValueError if it
     has no held-out runs, or its members do not err on them as it says."""
@@ -78,14 +98,7 @@ def held_out_runs(model, where="the emulator"):
         raise ValueError(f"{where} has no validation.held_out. Train it again.")
     shapes, places = np.array(held_out["categories"]), np.array(held_out["places"])
     inputs = plain_inputs(model["inputs"], places)
-    hot = shapes[:, None] == np.array(model["category"]["values"])
-    # The column for runs of a cheaper solver is zero here.
-    cheaper = np.zeros((len(shapes), int(model["corrects_cheaper_runs"])))
-    signal = np.hstack([places, hot, cheaper])
-    scale = np.array([output["scale"] for output in model["outputs"]])
-    shift = np.array([output["shift"] for output in model["outputs"]])
-    members = np.array([forward(one["layers"], signal) for one in model["members"]])
-    members = members * scale + shift
+    members = answers(model, places, shapes)
     divisors = [inputs[output["divide_by"]].prod(axis=1) for output in model["outputs"]]
     runs = HeldOutRuns(
         names=[output["name"] for output in model["outputs"]],

@@ -11,7 +11,7 @@ import matplotlib
 import numpy as np
 
 from error_scales import figures_of, percent_errors
-from held_out_runs import among, forward, held_out_runs, part_of
+from held_out_runs import among, answers, held_out_runs, part_of, standardised
 from paper_calibration import PAIRS, TRUTH, WORDS
 
 sys.path.append("workflow/scripts")
@@ -26,28 +26,14 @@ COLOURS = {"first": "0.6", "second": "C0"}
 QUANTILES = [0.025, 0.5, 0.975]
 
 
-def answers(model, inputs, shapes):
-    """The best member's outputs [runs x outputs] at plain inputs (a table), divided as it does."""
-    plain = {"linear": np.asarray, "log10": np.log10, "square_root": np.sqrt}
-    places = [
-        (plain[info["transform"]](inputs[info["name"]]) - info["shift"]) / info["scale"]
-        for info in model["inputs"]
-        if info["used"]
-    ]
-    hot = shapes[:, None] == np.array(model["category"]["values"])
-    cheaper = np.zeros((len(shapes), int(model["corrects_cheaper_runs"])))
-    signal = np.hstack([np.array(places).T, hot, cheaper])
-    scale = np.array([output["scale"] for output in model["outputs"]])
-    shift = np.array([output["shift"] for output in model["outputs"]])
-    return forward(model["members"][model["best"]]["layers"], signal) * scale + shift
-
-
 def errors_near(first, second, near):
     """Percent errors of both networks on the second round's runs that neither learnt from, and the
     runs."""
     runs = held_out_runs(second)
     runs = part_of(runs, among(runs, near))
-    told = {"first": answers(first, runs.inputs, runs.shapes), "second": runs.network}
+    places = standardised(first["inputs"], runs.inputs)
+    before = answers(first, places, runs.shapes)[first["best"]]
+    told = {"first": before, "second": runs.network}
     return runs, {
         name: percent_errors(runs.solver, network, runs.shapes) for name, network in told.items()
     }

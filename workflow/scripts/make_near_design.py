@@ -36,17 +36,17 @@ def widened(draws: np.ndarray, parameter: dict) -> np.ndarray:
 def near_design(rows: list[dict], draws: dict[str, np.ndarray], settings: dict) -> dict:
     """Columns of the design. `settings`: runs, first_run, seed, parameters with their ranges and
     transforms."""
-    shots, runs = shots_in_use(rows), settings["runs"]
+    runs, in_use = settings["runs"], shots_in_use(rows)
+    shots = [in_use[run % len(in_use)] for run in range(runs)]
     count = len(next(iter(draws.values())))
     # Draws have no order, so that evenly spaced ones are as good as any.
     chosen = (2 * np.arange(runs) + 1) * count // (2 * runs)
     inputs = np.empty((runs, len(SHOT_INPUTS) + len(settings["parameters"])))
-    for run in range(runs):
-        shot = shots[run % len(shots)]
+    for run, shot in enumerate(shots):
         ratio = shot["initial_length_mm"] / shot["initial_diameter_mm"]
         values = {**shot, "length_to_diameter": ratio}
         inputs[run, : len(SHOT_INPUTS)] = [values[name] for name in SHOT_INPUTS]
-    lots = np.array([shots[run % len(shots)]["lot"] for run in range(runs)])
+    lots = np.array([shot["lot"] for shot in shots])
     for column, (name, parameter) in enumerate(settings["parameters"].items(), len(SHOT_INPUTS)):
         for lot in np.unique(lots):
             own = draws[name if name in draws else f"{name}[{lot}]"]
@@ -57,7 +57,7 @@ def near_design(rows: list[dict], draws: dict[str, np.ndarray], settings: dict) 
     return {
         "run_id": settings["first_run"] + np.arange(runs, dtype=np.int64),
         "seed": np.random.default_rng(seed).integers(1, 2**31, size=runs).astype(np.int64),
-        "shape": [shots[run % len(shots)]["shape"] for run in range(runs)],
+        "shape": [shot["shape"] for shot in shots],
         "inputs": inputs,
         "names": [*SHOT_INPUTS, *settings["parameters"]],
     }

@@ -13,8 +13,6 @@ namespace {
 // by half a per cent. Heads are flattened by the impact, the more the nearer to a cone's
 // tip.
 constexpr double square_aspect = 1;
-constexpr double head_aspect = 2;
-constexpr double cone_tip_aspect = 6;
 constexpr double cone_tip_radii = 4;  // of the tip: above, a cone's cells are square
 // Of a cylinder, hardly anything happens beyond so many radii from the foot.
 constexpr double cylinder_square_radii = 3;
@@ -26,12 +24,35 @@ constexpr double cone_column_share = 5.0 / 8;
 constexpr std::size_t fewest_columns = 4;
 constexpr int row_samples = 2000;
 
+/// How a shape is cut.
+struct Division {
+    double columns;      ///< across the rear, of those asked for
+    double head_aspect;  ///< height / width of the head's cells; of a cone's at its tip
+};
+
+/// Refined divisions are what brings sizes to their limits within 1 % or so
+/// (tests/verification, convergence); the others take a third of the time.
+Division division_of(specimen::ShapeKind kind, bool refined) {
+    switch (kind) {
+        case specimen::ShapeKind::reduced_head_4mm:
+            return {refined ? 11.0 / 8 : 1, 2};
+        case specimen::ShapeKind::reduced_head_3mm:
+            return {refined ? 9.0 / 8 : 1, refined ? 3.0 : 2.0};
+        case specimen::ShapeKind::truncated_cone:
+            return {1, refined ? 3.0 : 6.0};
+        case specimen::ShapeKind::uniform_cylinder:
+            break;
+    }
+    return {1, square_aspect};
+}
+
 /// One stretch of the profile between two stations.
 struct Section {
     double bottom, top;                ///< heights [m]
     double bottom_radius, top_radius;  ///< [m]
     specimen::ShapeKind kind;          ///< of the specimen
     bool head;                         ///< below the head-rear section
+    double head_aspect;                ///< see Division
 
     double radius_at(double height) const {
         return std::lerp(bottom_radius, top_radius, (height - bottom) / (top - bottom));
@@ -46,18 +67,18 @@ struct Section {
         if (!head) return square_aspect;
         if (kind != specimen::ShapeKind::truncated_cone) return head_aspect;
         const double share = std::min(1.0, radii / cone_tip_radii);
-        return std::lerp(cone_tip_aspect, square_aspect, share);
+        return std::lerp(head_aspect, square_aspect, share);
     }
 };
 
-std::vector<Section> sections_of(const specimen::Shape& shape) {
+std::vector<Section> sections_of(const specimen::Shape& shape, double head_aspect) {
     std::vector<Section> sections;
     const auto& height = shape.station_height;
     for (std::size_t i = 0; i + 1 < height.size(); ++i) {
         if (height[i + 1] <= height[i]) continue;  // a step
         const bool head = height[i + 1] <= shape.head_length * (1 + 1e-12);
         sections.push_back({height[i], height[i + 1], shape.station_radius[i],
-                            shape.station_radius[i + 1], shape.kind, head});
+                            shape.station_radius[i + 1], shape.kind, head, head_aspect});
     }
     return sections;
 }
@@ -97,10 +118,11 @@ std::vector<double> rows_of(const Section& section, std::size_t columns, double 
 
 /// Radii of the column boundaries in units of the section's outer radius, for sections
 /// of constant radius: the head's columns are continued by the rear's.
-std::vector<double> columns_of(double inner, double outer, double share, int across) {
-    const double width = outer / across;
-    const auto inside =
-        std::max(fewest_columns, static_cast<std::size_t>(std::lround(share * across)));
+std::vector<double> columns_of(double inner, double outer, double share, long across) {
+    const double width = outer / static_cast<double>(across);
+    const auto inside = std::max(
+        fewest_columns,
+        static_cast<std::size_t>(std::lround(share * static_cast<double>(across))));
     std::vector<double> radii;
     for (std::size_t i = 0; i <= inside; ++i) {
         radii.push_back(inner * static_cast<double>(i) / static_cast<double>(inside));
@@ -117,9 +139,11 @@ std::vector<double> columns_of(double inner, double outer, double share, int acr
 
 }  // namespace
 
-Mesh make_mesh(const specimen::Shape& shape, int across) {
+Mesh make_mesh(const specimen::Shape& shape, int wanted_across, bool refined) {
     Mesh mesh;
-    const std::vector<Section> sections = sections_of(shape);
+    const Division division = division_of(shape.kind, refined);
+    const long across = std::lround(division.columns * wanted_across);
+    const std::vector<Section> sections = sections_of(shape, division.head_aspect);
     const double rear_radius = shape.rear_radius();
     const bool stepped = sections.size() > 1 &&
                          sections.front().bottom_radius == sections.front().top_radius;

@@ -24,6 +24,7 @@ struct Mesh {
 /// Cuts the profile into `across` columns over the radius of a cylinder's rear and rows
 /// to match. A head or a cone has three quarters or five eighths as many columns of its
 /// own. Cells of heads and tips start taller than wide, since the impact flattens them.
-Mesh make_mesh(const specimen::Shape& shape, int across);
+/// `refined` gives heads some more columns and a cone's tip some more rows.
+Mesh make_mesh(const specimen::Shape& shape, int across, bool refined);
 
 }  // namespace taylorcal::axisymmetric

@@ -16,13 +16,14 @@ enum class Geometry { axisymmetric, three_dimensional };  // "axisymmetric", "3d
 struct Numerics {
     Geometry geometry = Geometry::axisymmetric;
     int elements_across_radius = 8;  ///< cells, or particles, over the rear radius
+    bool refined_heads = false;      ///< whether cells are finer in heads (axisymmetric)
     int grains_per_point = 8;        ///< grains that share a point's strain
     double cfl = 0.28;               ///< share of the stable step
     double linear_viscosity = 0.06;
     double quadratic_viscosity = 1.0;
     double hourglass = 0.1;
     double stop_time_limit_s = 400e-6;  ///< simulated time after which a run gives up
-    std::int64_t step_limit = 400000;
+    std::int64_t step_limit = 2'000'000;
     std::int64_t point_update_limit = 2'000'000'000;  ///< steps x cells or particles
     double cpu_limit_s = 3600;
 };

@@ -3,6 +3,7 @@
 #include "solver/axisymmetric/quadrilateral.hpp"
 
 #include <numbers>
+#include <utility>
 
 #include <catch2/catch.hpp>
 
@@ -23,9 +24,10 @@ TEST_CASE("cells fill the profile: volume, outline and sections") {
         {ShapeKind::reduced_head_3mm, pi * (2.25 * 10 + 16 * 30)},
         {ShapeKind::truncated_cone, pi * (20.0 / 3 * (16 + 4 + 1) + 16 * 20)}};
     for (const auto& [kind, volume_mm3] : expected) {
-        for (const int across : {6, 8, 13}) {
+        for (const auto& [across, refined] :
+             {std::pair(6, false), std::pair(8, true), std::pair(13, true)}) {
             const specimen::Shape shape = specimen::make_shape(kind);
-            const Mesh mesh = make_mesh(shape, across);
+            const Mesh mesh = make_mesh(shape, across, refined);
             double volume = 0;
             for (const auto& cell : mesh.cells) {
                 std::array<double, 4> r{}, z{};
@@ -48,4 +50,15 @@ TEST_CASE("cells fill the profile: volume, outline and sections") {
             }
         }
     }
+}
+
+TEST_CASE("refined heads have more cells, a cylinder has not") {
+    const auto cells = [](ShapeKind kind, bool refined) {
+        return make_mesh(specimen::make_shape(kind), 8, refined).cells.size();
+    };
+    for (const ShapeKind kind : {ShapeKind::reduced_head_4mm, ShapeKind::reduced_head_3mm,
+                                 ShapeKind::truncated_cone})
+        CHECK(cells(kind, true) > cells(kind, false));
+    CHECK(cells(ShapeKind::uniform_cylinder, true) ==
+          cells(ShapeKind::uniform_cylinder, false));
 }

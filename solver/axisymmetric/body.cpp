@@ -94,11 +94,14 @@ Body::Body(const impact::ImpactCase& impact_case)
     deviator.assign(count, {});
     viscous_pressure.assign(count, 0.0);
     plastic_rate.assign(count, 0.0);
+    grain_step.assign(count, {});
     hourglass_stress.assign(count, {});
     hourglass_force.assign(count, {});
     cell_step.assign(count, 0.0);
     last_radius.resize(count);
     last_height.resize(count);
+    ring.resize(count);
+    hourglass_gamma.assign(count, {});
     for (std::size_t c = 0; c < count; ++c) {
         std::array<double, 4> r{}, z{};
         for (std::size_t a = 0; a < 4; ++a) {
@@ -107,7 +110,8 @@ Body::Body(const impact::ImpactCase& impact_case)
         }
         last_radius[c] = r;
         last_height[c] = z;
-        volume[c] = ring_of(r, z).volume;
+        ring[c] = ring_of(r, z);
+        volume[c] = ring[c].volume;
         cell_mass[c] = volume[c] * density;
         const std::array<double, 4> corners = corner_volumes(r, z);
         for (std::size_t a = 0; a < 4; ++a) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "solver/axisymmetric/anvil.hpp"
+#include "solver/axisymmetric/grain_step.hpp"
 #include "solver/axisymmetric/mesh.hpp"
 #include "solver/axisymmetric/quadrilateral.hpp"
 #include "solver/impact/impact_case.hpp"
@@ -41,14 +42,18 @@ struct Body {
 
     std::vector<double> cell_mass;  ///< [kg]
     std::vector<double> cell_step;  ///< own time step [s]
-    /// Corners of the cells at their last update, radii and heights [m].
+    /// Corners of the cells at their last update, radii and heights [m], and what nodal
+    /// forces need of them.
     std::vector<std::array<double, 4>> last_radius, last_height;
-    std::vector<double> volume;  ///< [m3]
+    std::vector<Ring> ring;
+    std::vector<std::array<double, 4>> hourglass_gamma;  ///< see HourglassModes
+    std::vector<double> volume;                          ///< [m3]
     std::vector<double> energy;  ///< E, hydrostatic specific energy [J/kg]
     std::vector<material::ThermoState> thermo;
-    std::vector<std::array<double, 4>> deviator;          ///< S: rr, tt, zz, rz [Pa]
-    std::vector<double> viscous_pressure;                 ///< q [Pa]
-    std::vector<double> plastic_rate;                     ///< equivalent [1/s]
+    std::vector<std::array<double, 4>> deviator;  ///< S: rr, tt, zz, rz [Pa]
+    std::vector<double> viscous_pressure;         ///< q [Pa]
+    std::vector<double> plastic_rate;             ///< equivalent [1/s]
+    std::vector<GrainStep> grain_step;
     std::vector<std::array<double, 2>> hourglass_stress;  ///< of the r and z modes [Pa]
     std::vector<std::array<double, 2>> hourglass_force;   ///< on the modes [N]
 

@@ -1,5 +1,4 @@
 #include "solver/axisymmetric/dynamics.hpp"
-#include "solver/axisymmetric/hourglass.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,12 +7,10 @@ namespace taylorcal::axisymmetric {
 
 void push_nodes(Body& body, std::size_t cell, double interval) {
     const auto& corners = body.mesh.cells[cell];
-    const std::array<double, 4>& r = body.last_radius[cell];
-    const std::array<double, 4>& z = body.last_height[cell];
-    const Ring ring = ring_of(r, z);
+    const Ring& ring = body.ring[cell];
     const auto& s = body.deviator[cell];
     const double mean = -body.thermo[cell].pressure - body.viscous_pressure[cell];
-    const std::array<double, 4> gamma = hourglass_modes(ring, r, z).gamma;
+    const std::array<double, 4>& gamma = body.hourglass_gamma[cell];
     const auto& hourglass = body.hourglass_force[cell];
     for (std::size_t a = 0; a < 4; ++a) {
         body.radial_impulse[corners[a]] -=
@@ -28,6 +25,10 @@ void push_nodes(Body& body, std::size_t cell, double interval) {
 void accelerate(Body& body, double time_step) {
     if (!body.anvil.rigid_and_smooth()) return body.anvil.accelerate(body, time_step);
     for (std::size_t n = 0; n < body.nodes(); ++n) {
+        const bool free_flight = body.radial_impulse[n] == 0 &&
+                                 body.axial_impulse[n] == 0 &&
+                                 body.height[n] + body.axial_velocity[n] * time_step >= 0;
+        if (free_flight) continue;
         const double mass = body.node_mass[n];
         body.radial_velocity[n] += body.radial_impulse[n] / mass;
         if (body.mesh.node_radius[n] == 0) body.radial_velocity[n] = 0;

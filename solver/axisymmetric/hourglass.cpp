@@ -34,11 +34,13 @@ HourglassModes hourglass_modes(const Ring& ring, const std::array<double, 4>& r,
     return modes;
 }
 
-void resist_hourglass(Body& body, std::size_t cell, const Ring& ring,
-                      const std::array<double, 4>& r, const std::array<double, 4>& z,
+void resist_hourglass(Body& body, std::size_t cell,
                       const std::array<double, 4>& radial_velocity,
                       const std::array<double, 4>& axial_velocity) {
-    const HourglassModes modes = hourglass_modes(ring, r, z);
+    const Ring& ring = body.ring[cell];
+    const HourglassModes modes =
+        hourglass_modes(ring, body.last_radius[cell], body.last_height[cell]);
+    body.hourglass_gamma[cell] = modes.gamma;
     std::array<double, 2> speed{};
     for (std::size_t a = 0; a < 4; ++a) {
         speed[0] += modes.gamma[a] * radial_velocity[a];

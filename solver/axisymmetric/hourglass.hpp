@@ -20,10 +20,9 @@ HourglassModes hourglass_modes(const Ring& ring, const std::array<double, 4>& r,
 /// over the cell's step is resisted as the metal would: elastically with the shear
 /// modulus, relaxing as fast as the cell flows (a Maxwell body of viscosity
 /// sigma/(3 rate), the secant of the flow stress), times `numerics.hourglass`; a small
-/// viscous part damps their ringing. Sets `Body::hourglass_force` and adds its work to
-/// the balance.
-void resist_hourglass(Body& body, std::size_t cell, const Ring& ring,
-                      const std::array<double, 4>& r, const std::array<double, 4>& z,
+/// viscous part damps their ringing. Sets `Body::hourglass_force` and `hourglass_gamma`,
+/// and adds the work to the balance.
+void resist_hourglass(Body& body, std::size_t cell,
                       const std::array<double, 4>& radial_velocity,
                       const std::array<double, 4>& axial_velocity);
 

@@ -14,15 +14,12 @@ constexpr int candidates = 8;        // for the shortest step, within a factor o
 
 /// Largest stable step of a cell times `numerics.cfl` [s].
 double stable_step(const Body& body, std::size_t cell) {
-    std::array<double, 4> r{}, z{};
-    for (std::size_t a = 0; a < 4; ++a) {
-        r[a] = body.radius[body.mesh.cells[cell][a]];
-        z[a] = body.height[body.mesh.cells[cell][a]];
-    }
+    const double width =
+        narrowest_width(body.ring[cell], body.last_radius[cell], body.last_height[cell]);
     const double sound = sound_speed(body, cell);
     const double density = body.cell_mass[cell] / body.volume[cell];
     const double viscous_speed = 4 * body.viscous_pressure[cell] / (density * sound);
-    return body.numerics.cfl * narrowest_width(r, z) / (sound + viscous_speed);
+    return body.numerics.cfl * width / (sound + viscous_speed);
 }
 
 int level_of(double stable, double shortest) {

@@ -19,20 +19,27 @@ struct Ring {
 };
 
 inline Ring ring_of(const std::array<double, 4>& r, const std::array<double, 4>& z) {
-    constexpr double pi = std::numbers::pi;
-    Ring ring{};
-    std::array<double, 4> volume_radial{};  // dV/dr_a = int (dN_a/dr + N_a/r) dV
+    constexpr double third_of_pi = std::numbers::pi / 3;
+    Ring ring;
+    std::array<double, 4> rise, square;  // of the side from corner a to the next
+    ring.volume = 0;
     for (std::size_t a = 0; a < 4; ++a) {
-        const std::size_t b = (a + 1) % 4;
-        const double rise = z[b] - z[a];
-        const double square = (r[a] * r[a] + r[a] * r[b] + r[b] * r[b]) * pi / 3;
-        ring.volume += square * rise;
-        volume_radial[a] += (2 * r[a] + r[b]) * rise * pi / 3;
-        volume_radial[b] += (r[a] + 2 * r[b]) * rise * pi / 3;
-        ring.axial[a] -= square;
-        ring.axial[b] += square;
+        const std::size_t next = (a + 1) % 4;
+        rise[a] = z[next] - z[a];
+        square[a] = (r[a] * r[a] + r[a] * r[next] + r[next] * r[next]) * third_of_pi;
+        ring.volume += square[a] * rise[a];
     }
-    std::array<double, 4> corner{};
+    std::array<double, 4> volume_radial;  // dV/dr_a = int (dN_a/dr + N_a/r) dV
+    for (std::size_t a = 0; a < 4; ++a) {
+        const std::size_t next = (a + 1) % 4;
+        const std::size_t last = (a + 3) % 4;
+        ring.axial[a] = square[last] - square[a];
+        volume_radial[a] =
+            ((2 * r[a] + r[next]) * rise[a] + (r[last] + 2 * r[a]) * rise[last]) *
+            third_of_pi;
+    }
+    std::array<double, 4> corner;
+    ring.area = 0;
     for (std::size_t a = 0; a < 4; ++a) {
         const std::size_t next = (a + 1) % 4;
         const std::size_t last = (a + 3) % 4;
@@ -55,14 +62,16 @@ inline Ring ring_of(const std::array<double, 4>& r, const std::array<double, 4>&
         j2 += eta[a] * corner[a] / 16;
     }
     for (std::size_t a = 0; a < 4; ++a) {
-        ring.hoop[a] = 2 * pi * (ring.area / 4 + (xi[a] * j1 + eta[a] * j2) / 3);
+        ring.hoop[a] = 6 * third_of_pi * (ring.area / 4 + (xi[a] * j1 + eta[a] * j2) / 3);
         ring.radial[a] = volume_radial[a] - ring.hoop[a];
     }
     return ring;
 }
 
-/// Area over the longest side [m].
-inline double narrowest_width(const std::array<double, 4>& r,
+/// How narrow a cell is, for its stable step: the mean of its area and its smallest
+/// corner's Jacobian, over the longest side. By the area alone a cell that tapers to
+/// nothing, as crushed ones on the axis do, would go unstable [m].
+inline double narrowest_width(const Ring& ring, const std::array<double, 4>& r,
                               const std::array<double, 4>& z) {
     double longest_square = 0;
     for (std::size_t a = 0; a < 4; ++a) {
@@ -71,9 +80,8 @@ inline double narrowest_width(const std::array<double, 4>& r,
         const double dz = z[b] - z[a];
         longest_square = std::max(longest_square, dr * dr + dz * dz);
     }
-    const double area =
-        ((r[2] - r[0]) * (z[3] - z[1]) - (z[2] - z[0]) * (r[3] - r[1])) / 2;
-    return area / std::sqrt(longest_square);
+    return (ring.area + std::max(0.0, ring.smallest_corner)) / 2 /
+           std::sqrt(longest_square);
 }
 
 }  // namespace taylorcal::axisymmetric

@@ -54,12 +54,13 @@ void SelfContact::search(const Body& body) {
 
 void SelfContact::apply(Body& body, double time_step) {
     const auto& outline = body.mesh.outline;
-    double fastest = 0;
+    double fastest_square = 0;
     for (const std::size_t n : outline) {
-        fastest = std::max(fastest,
-                           std::hypot(body.radial_velocity[n], body.axial_velocity[n]));
+        fastest_square =
+            std::max(fastest_square, body.radial_velocity[n] * body.radial_velocity[n] +
+                                         body.axial_velocity[n] * body.axial_velocity[n]);
     }
-    travel_ += fastest * time_step;
+    travel_ += std::sqrt(fastest_square) * time_step;
     if (!searched_ || travel_ > reach_ / 4) search(body);
 
     for (const Pair& pair : watched_) {

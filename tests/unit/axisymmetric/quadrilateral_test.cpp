@@ -86,3 +86,13 @@ TEST_CASE("a linear velocity field has its own gradient exactly") {
     CHECK(rz == Approx(0).margin(1e-12));
     CHECK(zr == Approx(-2));
 }
+
+TEST_CASE("a cell that tapers is narrower than its mean height") {
+    const auto width = [](const std::array<double, 4>& r,
+                          const std::array<double, 4>& z) {
+        return narrowest_width(ring_of(r, z), r, z);
+    };
+    CHECK(width({0, 4, 4, 0}, {0, 0, 1, 1}) == Approx(1));
+    // Mean height 1, at the axis 0.4.
+    CHECK(width({0, 4, 4, 0}, {0, 0, 1.6, 0.4}) == Approx(0.7).epsilon(0.05));
+}

@@ -1,0 +1,96 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace taylorcal::axisymmetric {
+
+/// A cell's grains take longer steps than the cell. Its stable step is that of sound and
+/// strains a flattened cell by some 1e-5, whereas the grains' equations, which cost most,
+/// bear more. Between two moves of the grains the cell's strain is elastic less what slip
+/// takes: as over the last move, in proportion to the power of the strain rate, since a
+/// cell that flows faster slips faster. The next move takes the whole time at its mean
+/// velocity gradient and mends what was wrong.
+///
+/// Velocity gradients L are rr, tt, zz, rz, zr [1/s], deviators S rr, tt, zz, rz [Pa].
+class GrainStep {
+  public:
+    using Gradient = std::array<double, 5>;
+    using Deviator = std::array<double, 4>;
+
+    /// Takes a step of the cell in; returns whether the grains must move with it, since
+    /// another step like this would be too much.
+    bool take(const Gradient& l, double dt) {
+        const double third = (l[0] + l[1] + l[2]) / 3;
+        double square = l[3] * l[3] + l[4] * l[4];
+        for (std::size_t i = 0; i < 3; ++i) square += (l[i] - third) * (l[i] - third);
+        for (std::size_t i = 0; i < 5; ++i) displacement_[i] += l[i] * dt;
+        time_ += dt;
+        const double increment = std::sqrt(square) * dt;
+        strain_ += increment;
+        return !begun_ || strain_ + increment > largest_strain;
+    }
+
+    /// Since the grains last moved [s].
+    double time() const { return time_; }
+    /// The mean of L over that time.
+    Gradient mean_gradient() const {
+        Gradient mean = displacement_;
+        for (double& component : mean) component /= time_;
+        return mean;
+    }
+
+    /// Changes the deviator as far as the cell's step does without a move of the grains.
+    void predict(const Gradient& l, double dt, Deviator& deviator) const {
+        const Deviator rate = strain_rate(l);
+        // What was elastic, or did no work, says nothing of how slip depends on the rate.
+        double share = 1;
+        if (inverse_power_ > 0)
+            share = std::clamp(product(stress_, rate) * inverse_power_, -largest_share,
+                               largest_share);
+        for (std::size_t i = 0; i < 4; ++i)
+            deviator[i] += dt * (stiffness_ * rate[i] - share * relaxation_[i]);
+    }
+
+    /// The grains have moved for time() at the mean gradient, with the shear modulus
+    /// [Pa], and answer with `deviator`.
+    void finish(const Deviator& deviator, double shear_modulus) {
+        const Deviator rate = strain_rate(mean_gradient());
+        stiffness_ = 2 * shear_modulus;
+        for (std::size_t i = 0; i < 4; ++i)
+            relaxation_[i] = stiffness_ * rate[i] - (deviator[i] - stress_[i]) / time_;
+        stress_ = deviator;
+        const double power = product(stress_, rate);
+        inverse_power_ = power > 0 ? 1 / power : 0;
+        displacement_ = {};
+        strain_ = time_ = 0;
+        begun_ = true;
+    }
+
+  private:
+    // Strained or turned by this, the grains move: sizes differ by less than orientation
+    // seeds make them from those of grains that move every step.
+    static constexpr double largest_strain = 3e-4;
+    static constexpr double largest_share = 4;  // of the last move's slip
+
+    static Deviator strain_rate(const Gradient& l) {
+        const double third = (l[0] + l[1] + l[2]) / 3;
+        return {l[0] - third, l[1] - third, l[2] - third, (l[3] + l[4]) / 2};
+    }
+    static double product(const Deviator& a, const Deviator& b) {
+        return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + 2 * a[3] * b[3];
+    }
+
+    double time_ = 0;
+    double strain_ = 0;         // int |L - 1/3 tr L| dt since the last move
+    Gradient displacement_{};   // int L dt since then
+    Deviator stress_{};         // S after it [Pa]
+    Deviator relaxation_{};     // what slip and turning took from dS/dt [Pa/s]
+    double inverse_power_ = 0;  // 1/(S : D) of it, or 0 [m3/W]
+    double stiffness_ = 0;      // 2 G of it [Pa]
+    bool begun_ = false;
+};
+
+}  // namespace taylorcal::axisymmetric

@@ -15,9 +15,10 @@ import pytest
 ROOT = Path(__file__).parents[2]
 sys.path.insert(0, str(ROOT / "tests" / "verification" / "studies"))
 
+import convergence  # noqa: E402
 import sample  # noqa: E402
 import two_solvers  # noqa: E402
-from impact_runs import SHAPES, arguments_of, run_name  # noqa: E402
+from impact_runs import SHAPES, SIZES, arguments_of, run_name  # noqa: E402
 from paper_calibration import level_that_holds, rate_of  # noqa: E402
 from paper_settings import plain_settings  # noqa: E402
 from twin_tables import LOOKED_AT, TWINS, truths, twin_designs  # noqa: E402
@@ -46,6 +47,29 @@ def test_a_change_scales_the_solvers_own_coefficient():
 def test_another_name_is_refused():
     with pytest.raises(ValueError, match="not the name of a run"):
         arguments("axisymmetric_n12")
+
+
+def test_coarse_cells_are_cut_as_the_coarse_setting_cuts_them():
+    assert "--fidelity coarse" in arguments(run_name("axisymmetric", 5, 8, "truncated_cone", 90))
+    assert "--fidelity fine" in arguments(run_name("axisymmetric", 8, 16, "truncated_cone", 90))
+    assert "--fidelity fine" in arguments(run_name("3d", 4, 1, "truncated_cone", 90))
+
+
+def test_convergence_takes_means_over_seeds_and_deviates_from_the_finest_cells():
+    def answer(length):
+        sizes = dict.fromkeys(SIZES, 10.0) | {"final_length_mm": length}
+        return {"sizes": sizes, "points": 100, "steps": 9, "cpu_s": 2.0, "status": "stopped"}
+
+    def row(geometry, elements, *lengths):
+        case = {"geometry": geometry, "elements": elements, "shape": "cone", "velocity_m_s": 90}
+        return case | convergence.mean_row([answer(length) for length in lengths])
+
+    rows = [row("axisymmetric", 8, 30, 32), row("axisymmetric", 16, 20, 20), row("3d", 40, 22)]
+    table = convergence.add_deviations(pd.DataFrame(rows))
+    assert table["final_length_mm"].tolist() == [31, 20, 22]
+    assert table["final_length_mm_deviation_percent"].tolist() == pytest.approx([55, 0, 10])
+    assert table["final_length_mm_scatter_percent"][0] == pytest.approx(100 * 2**0.5 / 31)
+    assert table["impact_diameter_mm_deviation_percent"].tolist() == [0, 0, 0]
 
 
 @pytest.mark.parametrize("target", ["accuracy", "paper"])

@@ -1,54 +1,63 @@
-"""Sizes against the number of cells or particles: table, extrapolated values and figure."""
+"""Sizes against the number of cells or particles: table, deviations from the finest, figure."""
 
 import matplotlib
 import numpy as np
 import pandas as pd
 from impact_runs import SHAPE_WORDS, SHAPES, SIZES, read_run
-from impact_study import SERIES, VELOCITIES, convergence_cases, convergence_name
+from impact_study import SERIES, VELOCITIES, convergence_cases, convergence_names
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 
 DRAWN = SIZES[:5]
+STYLES = {("axisymmetric", 16): "o-", ("3d", 1): "s:", ("3d", 4): "^--"}  # by grains a point
 COLOURS = dict(zip(SIZES, plt.get_cmap("tab10").colors))
-FITTED = 3  # finest settings that the extrapolation sees
+
+
+def mean_row(answers):
+    """What several seeds of one case answer: means, and each size's scatter between them [%]."""
+    sizes = pd.DataFrame([answer["sizes"] for answer in answers], columns=SIZES).astype(float)
+    row = {
+        key: np.mean([answer[key] for answer in answers]) for key in ["points", "steps", "cpu_s"]
+    }
+    row["status"] = " ".join(sorted({answer["status"] for answer in answers}))
+    scatter = 100 * sizes.std(ddof=1) / sizes.mean()
+    return row | dict(sizes.mean()) | {f"{size}_scatter_percent": scatter[size] for size in SIZES}
 
 
 def collect():
-    """One row a run: what it was, its sizes [mm] and its cost."""
+    """One row a case: what it was, its sizes [mm] and its cost."""
     rows = []
     for series in SERIES:
         geometry, grains, *_ = series
         for elements, shape, velocity in convergence_cases(series):
-            answer = read_run(convergence_name(series, (elements, shape, velocity)))
-            cost = {key: answer[key] for key in ["points", "steps", "cpu_s", "status"]}
+            names = convergence_names(series, (elements, shape, velocity))
             case = {
                 "geometry": geometry,
                 "grains": grains,
                 "elements": elements,
                 "shape": shape,
                 "velocity_m_s": velocity,
+                "seeds": len(names),
             }
-            rows.append(case | cost | answer["sizes"])
+            rows.append(case | mean_row([read_run(name) for name in names]))
     return pd.DataFrame(rows)
 
 
-def extrapolated(part):
-    """{size: value at vanishing element} of one case: a straight line in the element's width
-    through the finest settings."""
-    finest = part.nlargest(FITTED, "elements")
-    width = 1 / finest["elements"]
-    return {size: np.polyfit(width, finest[size], 1)[1] for size in SIZES}
+def limit_of(part):
+    """{size: value} of a case in the finest axisymmetric cells."""
+    solid = part[part["geometry"] == "axisymmetric"]
+    return solid.loc[solid["elements"].idxmax(), SIZES]
 
 
-def add_limits(table):
-    """Adds each size's deviation from the axisymmetric limit of its case [%]."""
+def add_deviations(table):
+    """Adds each size's deviation from its case's limit [%]."""
     table = table.copy()
     for _, part in table.groupby(["shape", "velocity_m_s"]):
-        limit = extrapolated(part[part["geometry"] == "axisymmetric"])
+        limit = limit_of(part)
         for size in SIZES:
-            deviation = 100 * (part[size] / limit[size] - 1) if limit[size] > 1 else np.nan
-            table.loc[part.index, f"{size}_deviation_percent"] = deviation
+            deviation = 100 * (part[size] / limit[size] - 1)
+            table.loc[part.index, f"{size}_deviation_percent"] = deviation.astype(float)
     return table
 
 
@@ -57,7 +66,7 @@ def draw(table, path):
     for row, shape in zip(axes, SHAPES):
         for axis, velocity in zip(row, VELOCITIES):
             case = table[(table["shape"] == shape) & (table["velocity_m_s"] == velocity)]
-            for (geometry, grains, *_), style in zip(SERIES, ["o-", "s:", "^--"]):
+            for (geometry, grains), style in STYLES.items():
                 part = case[(case["geometry"] == geometry) & (case["grains"] == grains)]
                 for size in DRAWN:
                     axis.plot(
@@ -77,7 +86,7 @@ def draw(table, path):
     for axis in axes[-1]:
         axis.set_xlabel("cells or particles across the rear's radius")
     for axis in axes[:, 0]:
-        axis.set_ylabel("from the axisymmetric limit [%]")
+        axis.set_ylabel("from the finest axisymmetric cells [%]")
     handles, labels = axes[0, 0].get_legend_handles_labels()
     figure.legend(
         handles,
@@ -92,7 +101,7 @@ def draw(table, path):
 
 
 def main(table_path, figure_path):
-    table = add_limits(collect())
+    table = add_deviations(collect())
     table.round(4).to_csv(table_path, index=False)
     draw(table, figure_path)
     columns = [f"{size}_deviation_percent" for size in DRAWN]

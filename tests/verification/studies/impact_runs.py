@@ -25,6 +25,7 @@ SIZES = [
 ]
 VISCOSITY = {"linear_viscosity": 0.06, "quadratic_viscosity": 1.0}  # the solver's own
 HOURGLASS = {"axisymmetric": 0.3, "3d": 0.1}
+COARSE_COLUMNS = 5  # of the coarse axisymmetric setting, which cuts heads less finely
 
 RUNS = Path("results/verification/runs")
 NAME = re.compile(
@@ -51,8 +52,9 @@ def arguments_of(wildcards):
         numerics |= {key: value * factor for key, value in VISCOSITY.items()}
     elif parts["what"] == "hourglass":
         numerics["hourglass"] = HOURGLASS[parts["geometry"]] * float(parts["factor"])
+    coarse = parts["geometry"] == "axisymmetric" and int(parts["elements"]) <= COARSE_COLUMNS
     words = [
-        f"--geometry {parts['geometry']} --fidelity fine",
+        f"--geometry {parts['geometry']} --fidelity {'coarse' if coarse else 'fine'}",
         f"--shape {parts['shape']} --velocity {parts['velocity']} --seed {parts['seed']}",
     ]
     return " ".join(words + [f"--numerics {key}={value}" for key, value in numerics.items()])

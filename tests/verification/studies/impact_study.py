@@ -14,11 +14,15 @@ SOLID = {
 # Geometry, grains a point, cells or particles over the rear radius, and velocities. In 3D one
 # grain is the source paper's choice; several tell what belongs to the geometry and what to
 # the grains.
+AT_90 = {shape: [90] for shape in SHAPES}
 SERIES = [
-    ("axisymmetric", 16, [5, 8, 12], EVERYWHERE),
-    ("3d", 1, [4, 6], {shape: [90] for shape in SHAPES}),
+    ("axisymmetric", 16, [5, 8, 12, 16], EVERYWHERE),
+    ("3d", 1, [4, 6, 9], AT_90),
     ("3d", 4, [4, 6], SOLID),
+    ("3d", 4, [9], AT_90),
 ]
+# One run's sizes scatter by more than what is left of the mesh in fine cells.
+CONVERGENCE_SEEDS = {"axisymmetric": [1, 2, 3], "3d": [1]}
 NOISE_SETTINGS = [("axisymmetric", 5, 8), ("axisymmetric", 8, 16), ("3d", 4, 1), ("3d", 4, 4)]
 NOISE_SEEDS = {"axisymmetric": range(1, 9), "3d": range(1, 5)}
 NOISE_VELOCITY = 90
@@ -35,15 +39,18 @@ def convergence_cases(series):
     return [(n, shape, v) for n in levels for shape in velocities for v in velocities[shape]]
 
 
-def convergence_name(series, case):
+def convergence_names(series, case):
+    """One a seed."""
     geometry, grains, *_ = series
-    elements, shape, velocity = case
-    return run_name(geometry, elements, grains, shape, velocity)
+    return [run_name(geometry, case[0], grains, *case[1:], s) for s in CONVERGENCE_SEEDS[geometry]]
 
 
 def convergence_runs():
     return [
-        convergence_name(series, case) for series in SERIES for case in convergence_cases(series)
+        name
+        for series in SERIES
+        for case in convergence_cases(series)
+        for name in convergence_names(series, case)
     ]
 
 

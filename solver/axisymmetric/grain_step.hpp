@@ -30,7 +30,7 @@ class GrainStep {
         time_ += dt;
         const double increment = std::sqrt(square) * dt;
         strain_ += increment;
-        return !begun_ || strain_ + increment > largest_strain;
+        return !begun_ || strain_ + increment > bearable_strain_;
     }
 
     /// Since the grains last moved [s].
@@ -55,13 +55,17 @@ class GrainStep {
     }
 
     /// The grains have moved for time() at the mean gradient, with the shear modulus
-    /// [Pa], and answer with `deviator`.
-    void finish(const Deviator& deviator, double shear_modulus) {
+    /// [Pa], and answer with `deviator`; `slips` if any of them has slipped.
+    void finish(const Deviator& deviator, double shear_modulus, bool slips) {
         const Deviator rate = strain_rate(mean_gradient());
         stiffness_ = 2 * shear_modulus;
         for (std::size_t i = 0; i < 4; ++i)
             relaxation_[i] = stiffness_ * rate[i] - (deviator[i] - stress_[i]) / time_;
         stress_ = deviator;
+        const double elastic_strain = std::sqrt(product(stress_, stress_)) / stiffness_;
+        bearable_strain_ = slips ? std::clamp(largest_share_of_elastic * elastic_strain,
+                                              least_strain, largest_strain)
+                                 : largest_strain;
         const double power = product(stress_, rate);
         inverse_power_ = power > 0 ? 1 / power : 0;
         displacement_ = {};
@@ -70,9 +74,13 @@ class GrainStep {
     }
 
   private:
-    // Strained or turned by this, the grains move: sizes differ by less than orientation
-    // seeds make them from those of grains that move every step.
+    // Strained or turned by so much, the grains move: sizes differ by less than
+    // orientation seeds make them from those of grains that move every step. Soft metal
+    // bears less, for the stress that a prediction misses must be a small part of its
+    // own.
     static constexpr double largest_strain = 3e-4;
+    static constexpr double least_strain = 3e-5;
+    static constexpr double largest_share_of_elastic = 0.1;
     static constexpr double largest_share = 4;  // of the last move's slip
 
     static Deviator strain_rate(const Gradient& l) {
@@ -84,12 +92,13 @@ class GrainStep {
     }
 
     double time_ = 0;
-    double strain_ = 0;         // int |L - 1/3 tr L| dt since the last move
-    Gradient displacement_{};   // int L dt since then
-    Deviator stress_{};         // S after it [Pa]
-    Deviator relaxation_{};     // what slip and turning took from dS/dt [Pa/s]
-    double inverse_power_ = 0;  // 1/(S : D) of it, or 0 [m3/W]
-    double stiffness_ = 0;      // 2 G of it [Pa]
+    double strain_ = 0;           // int |L - 1/3 tr L| dt since the last move
+    Gradient displacement_{};     // int L dt since then
+    Deviator stress_{};           // S after it [Pa]
+    Deviator relaxation_{};       // what slip and turning took from dS/dt [Pa/s]
+    double inverse_power_ = 0;    // 1/(S : D) of it, or 0 [m3/W]
+    double bearable_strain_ = 0;  // until the next
+    double stiffness_ = 0;        // 2 G of it [Pa]
     bool begun_ = false;
 };
 

@@ -101,7 +101,8 @@ std::array<double, grain_lanes / grains_a_block> move_grains(Body& body,
         work[c - first] = mean.plastic_power * time;
         body.plastic_rate[c] = mean.plastic_rate;
         body.deviator[c] = mean.deviator;
-        body.grain_step[c].finish(mean.deviator, shear_modulus[c - first]);
+        body.grain_step[c].finish(mean.deviator, shear_modulus[c - first],
+                                  mean.plastic_rate > 0);
     }
     return work;
 }

@@ -68,9 +68,9 @@ inline Ring ring_of(const std::array<double, 4>& r, const std::array<double, 4>&
     return ring;
 }
 
-/// How narrow a cell is, for its stable step: the mean of its area and its smallest
-/// corner's Jacobian, over the longest side. By the area alone a cell that tapers to
-/// nothing, as crushed ones on the axis do, would go unstable [m].
+/// How narrow a cell is, for its stable step: a mean of its smallest corner's Jacobian
+/// and its area, over the longest side. By the area alone, or a mean of equal parts,
+/// cells that taper to nothing, as crushed ones on the axis of cones do, go unstable [m].
 inline double narrowest_width(const Ring& ring, const std::array<double, 4>& r,
                               const std::array<double, 4>& z) {
     double longest_square = 0;
@@ -80,7 +80,8 @@ inline double narrowest_width(const Ring& ring, const std::array<double, 4>& r,
         const double dz = z[b] - z[a];
         longest_square = std::max(longest_square, dr * dr + dz * dz);
     }
-    return (ring.area + std::max(0.0, ring.smallest_corner)) / 2 /
+    constexpr double corner_share = 0.75;
+    return std::lerp(ring.area, std::max(0.0, ring.smallest_corner), corner_share) /
            std::sqrt(longest_square);
 }
 

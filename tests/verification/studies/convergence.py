@@ -86,7 +86,7 @@ def draw(table, path):
     for axis in axes[-1]:
         axis.set_xlabel("cells or particles across the rear's radius")
     for axis in axes[:, 0]:
-        axis.set_ylabel("from the finest axisymmetric cells [%]")
+        axis.set_ylabel("from the finest cells [%]")
     handles, labels = axes[0, 0].get_legend_handles_labels()
     figure.legend(
         handles,

@@ -78,7 +78,7 @@ class GrainStep {
     // orientation seeds make them from those of grains that move every step. Soft metal
     // bears less, for the stress that a prediction misses must be a small part of its
     // own.
-    static constexpr double largest_strain = 3e-4;
+    static constexpr double largest_strain = 4e-4;
     static constexpr double least_strain = 3e-5;
     static constexpr double largest_share_of_elastic = 0.1;
     static constexpr double largest_share = 4;  // of the last move's slip

@@ -68,9 +68,9 @@ inline Ring ring_of(const std::array<double, 4>& r, const std::array<double, 4>&
     return ring;
 }
 
-/// How narrow a cell is, for its stable step: a mean of its smallest corner's Jacobian
-/// and its area, over the longest side. By the area alone, or a mean of equal parts,
-/// cells that taper to nothing, as crushed ones on the axis of cones do, go unstable [m].
+/// How narrow a cell is, for its stable step: its area over the longest side; on the
+/// axis, whose nodes carry next to no mass, mostly its smallest corner's Jacobian instead
+/// of the area, for cells that are crushed there to a taper go unstable otherwise [m].
 inline double narrowest_width(const Ring& ring, const std::array<double, 4>& r,
                               const std::array<double, 4>& z) {
     double longest_square = 0;
@@ -81,8 +81,11 @@ inline double narrowest_width(const Ring& ring, const std::array<double, 4>& r,
         longest_square = std::max(longest_square, dr * dr + dz * dz);
     }
     constexpr double corner_share = 0.75;
-    return std::lerp(ring.area, std::max(0.0, ring.smallest_corner), corner_share) /
-           std::sqrt(longest_square);
+    const bool on_axis = r[0] == 0 && r[3] == 0;
+    const double area =
+        on_axis ? std::lerp(ring.area, std::max(0.0, ring.smallest_corner), corner_share)
+                : ring.area;
+    return area / std::sqrt(longest_square);
 }
 
 }  // namespace taylorcal::axisymmetric

@@ -31,7 +31,7 @@ struct Resolution {
 // particles in a cylinder; the paper has 45k to 63k); in (r, z) a cell stands for a whole
 // ring, so that its grains must be averaged.
 constexpr Resolution axisymmetric_resolution[] = {
-    {5, 8, 6'000'000}, {8, 16, 100'000'000}, {12, 16, 500'000'000}};
+    {5, 8, 12'000'000}, {8, 16, 100'000'000}, {12, 16, 500'000'000}};
 constexpr Resolution three_dimensional_resolution[] = {
     {4, 1, 2'000'000'000}, {6, 1, 8'000'000'000}, {9, 1, 40'000'000'000}};
 

@@ -87,7 +87,7 @@ TEST_CASE("a linear velocity field has its own gradient exactly") {
     CHECK(zr == Approx(-2));
 }
 
-TEST_CASE("a cell that tapers is narrower than its mean height") {
+TEST_CASE("a cell that tapers on the axis is narrower than its mean height") {
     const auto width = [](const std::array<double, 4>& r,
                           const std::array<double, 4>& z) {
         return narrowest_width(ring_of(r, z), r, z);
@@ -95,4 +95,5 @@ TEST_CASE("a cell that tapers is narrower than its mean height") {
     CHECK(width({0, 4, 4, 0}, {0, 0, 1, 1}) == Approx(1));
     // Mean height 1, at the axis 0.4.
     CHECK(width({0, 4, 4, 0}, {0, 0, 1.6, 0.4}) == Approx(0.55).epsilon(0.06));
+    CHECK(width({2, 6, 6, 2}, {0, 0, 1.6, 0.4}) == Approx(1).epsilon(0.06));
 }

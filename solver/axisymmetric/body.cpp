@@ -87,7 +87,6 @@ Body::Body(const impact::ImpactCase& impact_case)
     const double density =
         equation_of_state->density_at_temperature(impact_case.initial_temperature_K);
     const material::ThermoState initial = equation_of_state->at(density, initial_energy);
-    volume.resize(count);
     cell_mass.resize(count);
     energy.assign(count, initial_energy);
     thermo.assign(count, initial);
@@ -111,8 +110,7 @@ Body::Body(const impact::ImpactCase& impact_case)
         last_radius[c] = r;
         last_height[c] = z;
         ring[c] = ring_of(r, z);
-        volume[c] = ring[c].volume;
-        cell_mass[c] = volume[c] * density;
+        cell_mass[c] = ring[c].volume * density;
         const std::array<double, 4> corners = corner_volumes(r, z);
         for (std::size_t a = 0; a < 4; ++a) {
             node_mass[mesh.cells[c][a]] += corners[a] * density;
@@ -141,7 +139,8 @@ double kinetic_energy(const Body& body) {
 double sound_speed(const Body& body, std::size_t cell) {
     const double bulk = body.thermo[cell].bulk_modulus;
     const double shear = material::shear_modulus(bulk, body.parameters.poisson_ratio);
-    return std::sqrt((bulk + 4.0 / 3 * shear) * body.volume[cell] / body.cell_mass[cell]);
+    return std::sqrt((bulk + 4.0 / 3 * shear) * body.ring[cell].volume /
+                     body.cell_mass[cell]);
 }
 
 double von_mises_stress(const std::array<double, 4>& s) {

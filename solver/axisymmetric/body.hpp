@@ -47,7 +47,6 @@ struct Body {
     std::vector<std::array<double, 4>> last_radius, last_height;
     std::vector<Ring> ring;
     std::vector<std::array<double, 4>> hourglass_gamma;  ///< see HourglassModes
-    std::vector<double> volume;                          ///< [m3]
     std::vector<double> energy;  ///< E, hydrostatic specific energy [J/kg]
     std::vector<material::ThermoState> thermo;
     std::vector<std::array<double, 4>> deviator;  ///< S: rr, tt, zz, rz [Pa]

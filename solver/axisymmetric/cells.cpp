@@ -42,7 +42,7 @@ void close_energy(Body& body, std::size_t c, const Motion& m,
     double shear_power = 0;  // S : D at mid step
     for (std::size_t i = 0; i < 4; ++i)
         shear_power += (old_deviator[i] + body.deviator[c][i]) / 2 * rate[i];
-    const double density = body.cell_mass[c] / body.volume[c];
+    const double density = body.cell_mass[c] / body.ring[c].volume;
     const double old_pressure = body.thermo[c].pressure;
     const double old_viscous = body.viscous_pressure[c];
     const double viscous = artificial_viscosity(
@@ -57,9 +57,9 @@ void close_energy(Body& body, std::size_t c, const Motion& m,
     const double pressure = (old_pressure + body.thermo[c].pressure) / 2;
     body.energy[c] += heating + pressure * squeeze;
     body.viscous_pressure[c] = viscous;
-    const double cell_volume = body.volume[c] * dt;
+    const double cell_volume = body.ring[c].volume * dt;
     body.balance.viscous -= (old_viscous + viscous) / 2 * m.divergence() * cell_volume;
-    body.balance.plastic_work += plastic_work * body.volume[c];
+    body.balance.plastic_work += plastic_work * body.ring[c].volume;
     body.balance.internal +=
         ((pressure + (old_viscous + viscous) / 2) * -m.divergence() + shear_power) *
         cell_volume;
@@ -76,10 +76,11 @@ std::string update_group(Body& body, std::size_t first, std::size_t last) {
     for (std::size_t c = first; c < last; ++c) {
         Motion& m = motion[c - first];
         m = move_cell(body, c, dt);
-        if (!(body.volume[c] > 0) || !(body.ring[c].area > 0)) {
+        if (!(body.ring[c].volume > 0) || !(body.ring[c].area > 0)) {
             return trouble(body, c,
-                           std::isfinite(body.volume[c]) ? "a cell folded over"
-                                                         : "a position is not finite");
+                           std::isfinite(body.ring[c].volume)
+                               ? "a cell folded over"
+                               : "a position is not finite");
         }
         old_deviator[c - first] = body.deviator[c];
         time_to_move |= body.grain_step[c].take(m.gradient, dt);

@@ -30,7 +30,7 @@ class GrainStep {
         time_ += dt;
         const double increment = std::sqrt(square) * dt;
         strain_ += increment;
-        return !begun_ || strain_ + increment > bearable_strain_;
+        return stiffness_ == 0 || strain_ + increment > bearable_strain_;
     }
 
     /// Since the grains last moved [s].
@@ -70,7 +70,6 @@ class GrainStep {
         inverse_power_ = power > 0 ? 1 / power : 0;
         displacement_ = {};
         strain_ = time_ = 0;
-        begun_ = true;
     }
 
   private:
@@ -98,8 +97,7 @@ class GrainStep {
     Deviator relaxation_{};       // what slip and turning took from dS/dt [Pa/s]
     double inverse_power_ = 0;    // 1/(S : D) of it, or 0 [m3/W]
     double bearable_strain_ = 0;  // until the next
-    double stiffness_ = 0;        // 2 G of it [Pa]
-    bool begun_ = false;
+    double stiffness_ = 0;        // 2 G of it, 0 before the first [Pa]
 };
 
 }  // namespace taylorcal::axisymmetric

@@ -76,7 +76,7 @@ std::array<double, grain_lanes / grains_a_block> move_grains(Body& body,
     for (std::size_t c = first; c < last; ++c) {
         // The modulus of the step's end: one that lags behind the volume feeds the
         // ringing of metal under large elastic strain.
-        const double density = body.cell_mass[c] / body.volume[c];
+        const double density = body.cell_mass[c] / body.ring[c].volume;
         const double modulus =
             body.equation_of_state->at(density, body.energy[c]).bulk_modulus;
         shear_modulus[c - first] =

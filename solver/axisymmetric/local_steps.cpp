@@ -17,7 +17,7 @@ double stable_step(const Body& body, std::size_t cell) {
     const double width =
         narrowest_width(body.ring[cell], body.last_radius[cell], body.last_height[cell]);
     const double sound = sound_speed(body, cell);
-    const double density = body.cell_mass[cell] / body.volume[cell];
+    const double density = body.cell_mass[cell] / body.ring[cell].volume;
     const double viscous_speed = 4 * body.viscous_pressure[cell] / (density * sound);
     return body.numerics.cfl * width / (sound + viscous_speed);
 }

@@ -11,13 +11,11 @@ namespace taylorcal::axisymmetric {
 struct Motion {
     /// L: rr, tt, zz, rz = dv_r/dz, zr = dv_z/dr [1/s]
     std::array<double, 5> gradient;
-    Ring ring;                             ///< at the end
-    std::array<double, 4> radius, height;  ///< of the corners, at the end
     std::array<double, 4> radial_velocity, axial_velocity;  ///< mean
     double divergence() const { return gradient[0] + gradient[1] + gradient[2]; }
 };
 
-/// Brings a cell's corners, ring and volume from its last update to now.
+/// Brings a cell's corners and ring from its last update to now.
 inline Motion move_cell(Body& body, std::size_t cell, double dt) {
     Motion m;
     m.gradient = {};
@@ -48,7 +46,6 @@ inline Motion move_cell(Body& body, std::size_t cell, double dt) {
         m.gradient[4] += mid.radial[a] * vz;
     }
     body.ring[cell] = ring_of(last_r, last_z);
-    body.volume[cell] = body.ring[cell].volume;
     return m;
 }
 

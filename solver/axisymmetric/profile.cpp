@@ -68,7 +68,7 @@ impact::Fields fields(const Body& body) {
         out.initial_x_mm.push_back(r0 * to_mm);
         out.initial_y_mm.push_back(0);
         out.initial_z_mm.push_back(z0 * to_mm);
-        out.volume_mm3.push_back(body.volume[c] * 1e9);
+        out.volume_mm3.push_back(body.ring[c].volume * 1e9);
         double strain = 0, grain = 0, weakened = 0;
         for (std::size_t g = 0; g < grains; ++g) {
             const material::GrainState state = body.strength->state(c * grains + g);

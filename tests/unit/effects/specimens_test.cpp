@@ -60,11 +60,14 @@ TEST_CASE("each effect moves the length of a bar its way", "[effects]") {
     }
     const impact::ImpactResult rough = stopped(typical("anvil_friction", base));
     CHECK(rough.sizes.impact_diameter_mm < without.sizes.impact_diameter_mm - 0.05);
-    // Less heat changes the shape by less than a grain's move at another moment does.
+    // A third of the heat less: a slightly stiffer foot, whereas the length changes by
+    // 1e-5 either way, from one orientation seed to another.
     const impact::ImpactResult cool = stopped(typical("taylor_quinney_shift", base));
-    CHECK(cool.descriptors.largest_temperature_K <
-          without.descriptors.largest_temperature_K - 1);
-    CHECK(length(cool) == Approx(length(without)).epsilon(1e-4));
+    const auto rise = [&](const impact::ImpactResult& result) {
+        return result.descriptors.largest_temperature_K - base.initial_temperature_K;
+    };
+    CHECK(rise(cool) / rise(without) == Approx((0.9 - 0.3) / 0.9).epsilon(0.03));
+    CHECK(cool.sizes.impact_diameter_mm < without.sizes.impact_diameter_mm - 1e-3);
 }
 
 TEST_CASE("particles answer to the effects as cells do", "[effects]") {

@@ -46,8 +46,8 @@ def collect():
 
 def limit_of(part):
     """{size: value} of a case in the finest axisymmetric cells."""
-    solid = part[part["geometry"] == "axisymmetric"]
-    return solid.loc[solid["elements"].idxmax(), SIZES]
+    cells = part[part["geometry"] == "axisymmetric"]
+    return cells.loc[cells["elements"].idxmax(), SIZES]
 
 
 def add_deviations(table):

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "common/random.hpp"
-
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -9,13 +8,6 @@
 #include <Eigen/Geometry>
 
 namespace taylorcal::material {
-
-/// Uniform on SO(3) (Shoemake 1992) from three uniform numbers of counter `index`.
-Eigen::Quaterniond uniform_rotation(const RandomStream& random, std::uint64_t index);
-
-/// `count` orientations whose mean of the cubic axes' fourth-order moment is as near to
-/// that of a random polycrystal as a search finds; the same on each call.
-std::vector<Eigen::Quaterniond> isotropic_set(std::size_t count);
 
 /// Turns a grain that was drawn at random into that of a texture, with the help of a
 /// number uniform in [0, 1); must commute with turns about z.
@@ -31,8 +23,9 @@ Eigen::Quaterniond changed_orientation(const std::vector<OrientationChange>& cha
                                        std::size_t grain, std::size_t per_point);
 
 /// Orientations of `per_point` grains for each of `points` points, point by point. Each
-/// point has the same isotropic set under a uniform rotation of its own: less scatter
-/// than independent grains, and no texture common to all points.
+/// point has the same isotropic set under a rotation of its own, and the rotations of
+/// points that follow each other cover all of them evenly: half the scatter of
+/// independent grains, and no texture common to all points.
 std::vector<Eigen::Quaterniond> grain_orientations(
     std::size_t points, std::size_t per_point, std::uint64_t seed,
     const std::vector<OrientationChange>& changes = {});

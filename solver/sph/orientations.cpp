@@ -1,6 +1,7 @@
 #include "solver/sph/orientations.hpp"
 
-#include "solver/material/grain_orientations.hpp"
+#include "solver/material/isotropic_set.hpp"
+#include "solver/material/uniform_rotation.hpp"
 
 #include <cmath>
 #include <map>

@@ -81,9 +81,24 @@ TEST_CASE("mirror images of grains change nothing, whichever are mirrored") {
 // A turn about the axis keeps the mean of S_rr and S_tt where the metal spreads alike in
 // both, and not elsewhere: grains are a sample there, and the turned ones another.
 TEST_CASE("grains turned about the axis are another sample of the same metal") {
-    const auto plain = shoot(1, [](std::size_t) { return about(0, {0, 0, 1}); });
-    const auto turned = shoot(1, [](std::size_t) { return about(0.7, {0, 0, 1}); });
-    const auto other = shoot(2, [](std::size_t) { return about(0, {0, 0, 1}); });
-    CHECK(difference(turned, plain) < 0.02);
-    CHECK(difference(turned, plain) < difference(other, plain));
+    constexpr std::uint64_t seeds = 8;
+    std::vector<double> plain, turned;
+    double scatter = 0;
+    for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+        const auto straight = shoot(seed, [](std::size_t) {
+            return about(0, {0, 0, 1});
+        });
+        const auto answer = shoot(seed, [](std::size_t) {
+            return about(0.7, {0, 0, 1});
+        });
+        plain.resize(straight.size());
+        turned.resize(answer.size());
+        for (std::size_t i = 0; i < plain.size(); ++i) {
+            plain[i] += straight[i] / seeds;
+            turned[i] += answer[i] / seeds;
+        }
+        scatter = std::max(scatter, difference(answer, straight));
+    }
+    CHECK(difference(turned, plain) < 0.01);
+    CHECK(difference(turned, plain) < scatter / 2);
 }

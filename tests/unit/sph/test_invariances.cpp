@@ -1,7 +1,7 @@
 // What turns, mirrors or moves the whole experiment must not change its outcome. The
 // grains are independent, so that the specimen itself has no symmetry. What differs is
 // the rounding to single precision (3e-7 of sizes and energies when written).
-#include "solver/material/grain_orientations.hpp"
+#include "solver/material/uniform_rotation.hpp"
 #include "solver/sph/monitor.hpp"
 
 #include <map>

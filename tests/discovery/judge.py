@@ -161,6 +161,11 @@ def left_out_falls(case: Case) -> bool:
     return case.refit["with"]["left_out_chi2"] < case.refit["without"]["left_out_chi2"]
 
 
+def left_out_in_turn_falls(case: Case) -> bool:
+    key = "left_out_in_turn_chi2"
+    return case.refit["with"][key] < case.refit["without"][key]
+
+
 def moves_toward_truth(case: Case) -> bool:
     """Distance to the true parameters, in the metric of the fit's information."""
     information = np.array(case.refit["information"])
@@ -278,7 +283,18 @@ QUESTIONS = [
         _outside,
         0.80,
     ),
-    Question("the hidden effect added: left-out error falls", _named_rightly, left_out_falls, 0.90),
+    Question(
+        "the hidden effect added: error of every shot, left out in turn, falls",
+        _named_rightly,
+        left_out_in_turn_falls,
+        0.90,
+    ),
+    Question(
+        "the hidden effect added: error of the fifth held back falls",
+        _named_rightly,
+        left_out_falls,
+        0.90,
+    ),
     Question(
         "the hidden effect added: parameters move toward the truth",
         _named_rightly,

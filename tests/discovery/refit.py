@@ -4,12 +4,14 @@
     --out refits.json t001=signatures.h5
 
 Reads nothing that is sealed. Fits by least squares on the whitened residuals, independent of
-the C++ code: network alone, then network and the effect's signature.
+the C++ code: network alone, then network and the effect's signature. Looks at the shots that the
+table holds back, and at every shot in turn with a fifth of them left out.
 """
 
 import argparse
 import csv
 import json
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -21,6 +23,9 @@ from scipy.optimize import least_squares
 from specimens import TRUTHS
 
 STARTS = (0.25, 0.5, 0.75)  # of each parameter's range
+AMPLITUDE_STARTS = (0.1, 1.0)  # of the candidate's usual one: from its bound nothing moves
+FOLDS = 5
+TOLERANCE = 1e-6  # relative, of chi^2 and of the place
 
 
 def read_table(path: Path) -> tuple[Shots, np.ndarray, np.ndarray]:
@@ -58,21 +63,26 @@ class Fit:
         if self._candidate is not None:
             for shape, chosen in model.by_shape():
                 points = model.points(chosen, theta)
-                change = self._signatures.change(shape, self._candidate["name"], points)
+                name = self._candidate["name"]
+                change = self._signatures.change(shape, name, points, amplitude)
                 sizes[chosen] += amplitude * change
         return sizes
 
-    def solve(self) -> tuple[np.ndarray, float, float]:
-        """Parameters, amplitude and chi^2 of the best of several starts."""
-        best = None
+    def solve(self, first=None) -> "Optimum":
+        """The best of several starts, or the one reached from `first`."""
+        starts = self._starts() if first is None else [first.place]
         for _ in range(2):  # the velocity's part of the errors, once more at the first optimum
-            for start in STARTS if best is None else [best.x[:-1]]:
-                found = self._solve_from(start, best)
-                if best is None or found.cost < best.cost:
-                    best = found
-            self.roots = whiteners(self._model, self.parameters(best.x[:-1]))
-        theta, amplitude = self.parameters(best.x[:-1]), best.x[-1] * self._scale()
-        return theta, amplitude, float(np.sum(self._residual(best.x) ** 2))
+            found = min((self._solve_from(start) for start in starts), key=lambda fit: fit.cost)
+            self.roots = whiteners(self._model, self.parameters(found.x[:-1]))
+            starts = [found.x]
+        theta, amplitude = self.parameters(found.x[:-1]), found.x[-1] * self._scale()
+        return Optimum(found.x, theta, amplitude, float(np.sum(self._residual(found.x) ** 2)))
+
+    def _starts(self) -> list[np.ndarray]:
+        count = len(self._model.parameters)
+        amplitudes = (0.0,) if self._candidate is None else AMPLITUDE_STARTS
+        sign = 1.0 if self._candidate is None else np.sign(self._candidate["typical"])
+        return [np.append(np.full(count, s), sign * a) for s in STARTS for a in amplitudes]
 
     def _scale(self) -> float:
         return 0.0 if self._candidate is None else abs(self._candidate["typical"])
@@ -81,7 +91,7 @@ class Fit:
         sizes = self.predicted(self._model, self.parameters(x[:-1]), x[-1] * self._scale())
         return whiten(self.roots, self._measured - sizes)
 
-    def _solve_from(self, start, best):
+    def _solve_from(self, start: np.ndarray):
         count = len(self._model.parameters)
         low, high = np.zeros(count + 1), np.ones(count + 1)
         low[-1], high[-1] = -1.0, 1.0
@@ -89,38 +99,76 @@ class Fit:
             base, scale = self._candidate["base"], self._scale()
             low[-1] = (self._candidate["lowest"] - base) / scale
             high[-1] = (self._candidate["highest"] - base) / scale
-        amplitude = 0.0 if best is None else best.x[-1]
-        x = np.append(np.broadcast_to(start, count), np.clip(amplitude, low[-1], high[-1]))
-        inside = np.clip(x, low + 1e-6 * (high - low), high - 1e-6 * (high - low))
-        return least_squares(self._residual, inside, bounds=(low, high))
+        inside = np.clip(start, low + 1e-6 * (high - low), high - 1e-6 * (high - low))
+        return least_squares(
+            self._residual, inside, bounds=(low, high), ftol=TOLERANCE, xtol=TOLERANCE
+        )
 
 
-def added(network, signatures, candidate: dict, table: Path) -> dict:
-    """Both fits of a table: chi^2 on its fitted and its held-back shots, and parameters."""
-    shots, measured, fitted = read_table(table)
-    inside, outside = shots.subset(fitted), shots.subset(~fitted)
+@dataclass(frozen=True)
+class Optimum:
+    place: np.ndarray  # shares of the ranges, amplitude over the usual one
+    theta: np.ndarray
+    amplitude: float
+    chi2: float
+
+
+class Table:
+    """A table and what may be added to explain it."""
+
+    def __init__(self, network, signatures, path: Path):
+        self.network, self._signatures = network, signatures
+        self.shots, self.measured, self.fitted = read_table(path)
+
+    def model(self, chosen: np.ndarray) -> PlainModel:
+        return PlainModel(self.network, self.shots.subset(chosen), list(TRUTHS))
+
+    def fit(self, chosen: np.ndarray, candidate: dict | None) -> Fit:
+        return Fit(self.model(chosen), self.measured[chosen], self._signatures, candidate)
+
+    def chi2_left_out(self, fitted: np.ndarray, candidate: dict | None, first=None) -> float:
+        """Of the shots that are not `fitted`, whitened at what the others say."""
+        fit = self.fit(fitted, candidate)
+        best = fit.solve(first)
+        held = self.model(~fitted)
+        rest = self.measured[~fitted] - fit.predicted(held, best.theta, best.amplitude)
+        return float(np.sum(whiten(whiteners(held, best.theta), rest) ** 2))
+
+    def folds(self) -> list[np.ndarray]:
+        """Which shots are left out together: every fifth by shape and velocity."""
+        order = np.lexsort([self.shots.velocities, self.shots.shapes])
+        rank = np.empty(len(order), dtype=int)
+        rank[order] = np.arange(len(order))
+        return [rank % FOLDS == fold for fold in range(FOLDS)]
+
+
+def added(network, signatures, candidate: dict, path: Path) -> dict:
+    """Both fits of a table: parameters, chi^2 on its fitted and its held-back shots, and chi^2 of
+    all shots, each predicted from four fifths of the others.
+    """
+    table = Table(network, signatures, path)
     ranges = {name: network.ranges[name] for name in TRUTHS}
     report: dict = {"effect": candidate["name"], "ranges": ranges}
+    everything = np.ones_like(table.fitted)
     for key, chosen in (("without", None), ("with", candidate)):
-        model = PlainModel(network, inside, list(TRUTHS))
-        fit = Fit(model, measured[fitted], signatures, chosen)
-        theta, amplitude, chi2 = fit.solve()
-        held = PlainModel(network, outside, list(TRUTHS))
-        rest = measured[~fitted] - fit.predicted(held, theta, amplitude)
-        left_out = float(np.sum(whiten(whiteners(held, theta), rest) ** 2))
+        fit = table.fit(table.fitted, chosen)
+        best = fit.solve()
+        whole = table.fit(everything, chosen).solve(best)
+        turns = [table.chi2_left_out(~fold, chosen, whole) for fold in table.folds()]
         report[key] = {
-            "parameters": dict(zip(TRUTHS, theta, strict=True)),
-            "amplitude": amplitude,
-            "chi2": chi2,
-            "left_out_chi2": left_out,
+            "parameters": dict(zip(TRUTHS, best.theta, strict=True)),
+            "amplitude": best.amplitude,
+            "chi2": best.chi2,
+            "left_out_chi2": table.chi2_left_out(table.fitted, chosen, best),
+            "left_out_in_turn_chi2": sum(turns),
         }
-        report.setdefault("information", _information(model, theta, fit.roots))
+        report.setdefault("information", _information(table, best.theta, fit.roots))
     return report
 
 
-def _information(model: PlainModel, theta: np.ndarray, roots: np.ndarray) -> list:
+def _information(table: Table, theta: np.ndarray, roots: np.ndarray) -> list:
     """J^T J over shares of the ranges: measures how far apart two sets of parameters are."""
-    sensitivity = sensitivities(model, theta, roots)
+    sensitivity = sensitivities(table.model(table.fitted), theta, roots)
     return (sensitivity.T @ sensitivity).tolist()
 
 

@@ -52,7 +52,12 @@ def truth(kind="null", effects=None, signal=0.0, **more):
 
 def refit(with_theta, without_theta, with_chi2, without_chi2):
     def fit(value, chi2):
-        return {"parameters": {"hardening_coefficient": value}, "left_out_chi2": chi2}
+        parameters = {"hardening_coefficient": value}
+        return {
+            "parameters": parameters,
+            "left_out_chi2": chi2,
+            "left_out_in_turn_chi2": 4 * chi2,
+        }
 
     return {
         "effect": "anvil_friction",
@@ -152,7 +157,8 @@ def test_adding_the_effect_is_judged_by_left_out_shots_and_parameters():
     cases = [
         Case(str(n), friction(RIGHT).truth, RIGHT, fit) for n, fit in enumerate((better, worse))
     ]
-    for name in ("the hidden effect added: left", "the hidden effect added: param"):
+    for name in ("error of every shot", "error of the fifth", "parameters"):
+        name = f"the hidden effect added: {name}"
         answer = score_of(cases, name)
         assert (answer.hits, answer.trials) == (1, 2)
 

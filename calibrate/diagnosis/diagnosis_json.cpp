@@ -76,8 +76,8 @@ json candidate_json(const Candidate& c, const CandidateRecord& record, bool in_s
         const EffectEvidence& e = *record.evidence;
         entry.update(json{{"amplitude", e.fit.amplitudes(0)},
                           {"amplitude_sd", e.sd},
-                          {"lower95", e.lower95},
-                          {"upper95", e.upper95},
+                          {"lower95", e.interval.lower95},
+                          {"upper95", e.interval.upper95},
                           {"log_evidence_gain", e.log_gain},
                           {"log_evidence_gain_half_width", e.log_gain_half_width},
                           {"log_evidence_gain_double_width", e.log_gain_double_width},

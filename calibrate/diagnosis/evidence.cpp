@@ -48,14 +48,6 @@ struct AmplitudeLikelihood {
     }
 };
 
-double quantile(const AmplitudeLikelihood& grid, const Eigen::VectorXd& mass,
-                double share) {
-    double sum = 0;
-    for (Eigen::Index i = 0; i < mass.size(); ++i)
-        if ((sum += mass(i)) >= share) return grid.amplitude(i);
-    return grid.amplitude(mass.size() - 1);
-}
-
 AmplitudeLikelihood on_fine_grid(const AmplitudeProfile& profile) {
     AmplitudeLikelihood grid;
     grid.amplitude = profile.amplitudes(points_of_integral);
@@ -156,8 +148,7 @@ EffectEvidence effect_evidence(const DiagnosisProblem& problem, const Whitening&
     found.mean = mass.dot(grid.amplitude);
     found.sd =
         std::sqrt(mass.dot((grid.amplitude.array() - found.mean).square().matrix()));
-    found.lower95 = quantile(grid, mass, 0.025);
-    found.upper95 = quantile(grid, mass, 0.975);
+    found.interval = amplitude_interval(problem, found.fit);
     found.is_at_end_of_runs = is_at_end_of_runs(problem, found.fit);
     return found;
 }

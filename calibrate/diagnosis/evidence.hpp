@@ -1,5 +1,6 @@
 #pragma once
 
+#include "calibrate/diagnosis/amplitude_interval.hpp"
 #include "calibrate/diagnosis/refit.hpp"
 
 #include <optional>
@@ -14,11 +15,9 @@ struct EffectEvidence {
     double log_gain_double_width = 0;
     /// Of the amplitude by the data alone: every value of its physical range is as likely
     /// before. A prior's scale is a judgement, and would pull strong effects down.
-    /// Two places that fit alike lie both in the interval.
     double mean = 0;
     double sd = 0;
-    double lower95 = 0;
-    double upper95 = 0;
+    AmplitudeInterval interval{};
     /// Whether the fit is held where its paired runs end, short of the ranges.
     bool is_at_end_of_runs = false;
 };

@@ -24,9 +24,9 @@ from specimens import TRUTHS
 
 POINTS_A_SHAPE = 9
 SEED = 77
-# Amplitudes of the pairs: this many standard errors of the measurements, as far as the range
-# allows. What is hidden lies below; far beyond it sizes are no longer linear in the amplitude.
-SIGMAS = 12
+# Amplitudes of the pairs: this many standard errors of measurements and network, as far as
+# the range allows. What is hidden lies below; far beyond it sizes bend.
+SIGMAS = 26
 SHARES = (0.5, 1.0)  # in turn, so that a curvature shows
 
 

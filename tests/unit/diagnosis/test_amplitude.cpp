@@ -62,19 +62,18 @@ struct BentTable final : toys::LinearTable {
     }
 };
 
-/// The middle 95 % of exp(-chi2/2) from 0 to `highest`.
+/// The lowest and the highest amplitude up to 10 whose chi^2 is at most 3.84.
 template <class Chi2>
-std::pair<double, double> interval_of(Chi2 chi2, double highest) {
-    std::vector<double> shares;
-    double whole = 0;
+std::pair<double, double> interval_of(Chi2 chi2) {
     constexpr int steps = 20000;
-    for (int i = 0; i <= steps; ++i)
-        shares.push_back(whole += std::exp(-0.5 * chi2(highest * i / steps)));
-    const auto at = [&](double share) {
-        const auto found = std::ranges::lower_bound(shares, share * whole);
-        return highest * static_cast<double>(found - shares.begin()) / steps;
-    };
-    return {at(0.025), at(0.975)};
+    double lower = 10, upper = 0;
+    for (int i = 0; i <= steps; ++i) {
+        const double amplitude = 10.0 * i / steps;
+        if (chi2(amplitude) > 3.841) continue;
+        lower = std::min(lower, amplitude);
+        upper = amplitude;
+    }
+    return {lower, upper};
 }
 
 }  // namespace
@@ -92,8 +91,8 @@ TEST_CASE("the amplitude's interval is that of the data alone", "[evidence]") {
     const double m = found.candidates[1].screening.score / a;
     CHECK(e.mean == Approx(m).epsilon(0.01));
     CHECK(e.sd == Approx(1 / a).epsilon(0.02));
-    CHECK(e.lower95 == Approx(m - 1.96 / a).epsilon(0.02));
-    CHECK(e.upper95 == Approx(m + 1.96 / a).epsilon(0.02));
+    CHECK(e.interval.lower95 == Approx(m - 1.96 / a).epsilon(0.02));
+    CHECK(e.interval.upper95 == Approx(m + 1.96 / a).epsilon(0.02));
 }
 
 TEST_CASE("the amplitude's interval follows the parameters along a curved ridge",
@@ -127,8 +126,8 @@ TEST_CASE("the amplitude's interval follows the parameters along a curved ridge"
         const auto at = std::ranges::lower_bound(shares, share * whole);
         return amplitudes[static_cast<std::size_t>(at - shares.begin())];
     };
-    CHECK(e.lower95 == Approx(quantile(0.025)).margin(0.1));
-    CHECK(e.upper95 == Approx(quantile(0.975)).margin(0.1));
+    CHECK(e.interval.lower95 == Approx(quantile(0.025)).margin(0.1));
+    CHECK(e.interval.upper95 == Approx(quantile(0.975)).margin(0.1));
 }
 
 TEST_CASE("the fit moves to a better place far from where it starts", "[evidence]") {
@@ -143,9 +142,9 @@ TEST_CASE("the fit moves to a better place far from where it starts", "[evidence
     const auto chi2 = [&](double k) {
         return std::pow(sigma * (table.shift_of(k) - table.shift_of(true_amplitude)), 2);
     };
-    const auto [lower, upper] = interval_of(chi2, 10);
-    CHECK(e.lower95 == Approx(lower).epsilon(0.01));
-    CHECK(e.upper95 == Approx(upper).epsilon(0.01));
+    const auto [lower, upper] = interval_of(chi2);
+    CHECK(e.interval.lower95 == Approx(lower).epsilon(0.01));
+    CHECK(e.interval.upper95 == Approx(upper).epsilon(0.01));
     // Its evidence is that of the whole likelihood, by the trapezium rule.
     double integral = 0;
     const AmplitudePrior& prior = table.candidates[1].prior;
@@ -158,18 +157,16 @@ TEST_CASE("of two places that fit alike the interval covers both", "[evidence]")
     BentTable table;
     table.shift_of = [](double k) { return k * (10 - k) / 16; };
     const EffectEvidence e = table.evidence_of(2, 8);  // as good as 8
-    const auto [lower, upper] = interval_of(
-        [&](double k) {
-            return std::pow(8 * (table.shift_of(k) - table.shift_of(2)), 2);
-        },
-        10);
+    const auto [lower, upper] = interval_of([&](double k) {
+        return std::pow(8 * (table.shift_of(k) - table.shift_of(2)), 2);
+    });
     REQUIRE(lower < 2);
     REQUIRE(upper > 8);
-    CHECK(e.lower95 == Approx(lower).margin(0.05));
-    CHECK(e.upper95 == Approx(upper).margin(0.05));
+    CHECK(e.interval.lower95 == Approx(lower).margin(0.05));
+    CHECK(e.interval.upper95 == Approx(upper).margin(0.05));
 }
 
-TEST_CASE("a far place that only its signature's errors spoil is left out",
+TEST_CASE("a far place that its signature's errors spoil is no fit, but not excluded",
           "[evidence]") {
     // 0.84 of the shift at an amplitude of 1.5, all of it at 6.5.
     BentTable table;
@@ -179,15 +176,31 @@ TEST_CASE("a far place that only its signature's errors spoil is left out",
     };
     const EffectEvidence exact = table.evidence_of(6.5, 8);
     CHECK(exact.fit.amplitudes(0) == Approx(6.5).margin(0.3));
-    CHECK(exact.lower95 < 3);
-    CHECK(exact.upper95 > 6.5);
+    CHECK(exact.interval.lower95 < 3);
+    CHECK(exact.interval.upper95 > 6.5);
     // The signature's errors grow with the amplitude and leave little of the gain far
-    // off.
+    // off: the fit stays near. But no error speaks against the far place, which is true.
     table.signature_sd = 0.03;
     const EffectEvidence e = table.evidence_of(6.5, 8);
     CHECK(e.fit.amplitudes(0) == Approx(1.5).margin(0.1));
-    CHECK(e.lower95 > 0.5);
-    CHECK(e.upper95 < 3.5);
+    CHECK(e.mean < 3);
+    CHECK(e.interval.lower95 > 0.5);
+    CHECK(e.interval.upper95 > 6.5);
+}
+
+TEST_CASE("what is known badly excludes little", "[evidence]") {
+    // 1.2 of the shift of a unit; with an error of 30 % of the shift, from 0.5 to
+    // beyond 2.
+    BentTable table;
+    table.shift_of = [](double k) { return k; };
+    const AmplitudeInterval exact = table.evidence_of(1.2, 10).interval;
+    CHECK(exact.lower95 == Approx(1.2 - 0.196).epsilon(0.01));
+    CHECK(exact.upper95 == Approx(1.2 + 0.196).epsilon(0.01));
+    table.signature_sd = 0.3;
+    const AmplitudeInterval rough = table.evidence_of(1.2, 10).interval;
+    // (k - 1.2)^2 = 3.84 (0.1^2 + 0.3^2 k^2)
+    CHECK(rough.lower95 == Approx(0.729).epsilon(0.02));
+    CHECK(rough.upper95 == Approx(2.939).epsilon(0.02));
 }
 
 TEST_CASE("nothing is found where no paired run is", "[evidence]") {
@@ -196,7 +209,7 @@ TEST_CASE("nothing is found where no paired run is", "[evidence]") {
     table.runs.highest = 1.5;  // the better place lies beyond
     const EffectEvidence e = table.evidence_of(5, 8);
     CHECK(e.fit.amplitudes(0) == Approx(0).margin(1e-6));
-    CHECK(e.upper95 <= 1.5);
+    CHECK(e.interval.upper95 <= 1.5);
     CHECK_FALSE(e.is_at_end_of_runs);
     CHECK(e.log_gain < 0);
     // A fit that would go on is held, and says so.

@@ -44,7 +44,7 @@ TEST_CASE("an effect of six sigma is flagged and named", "[verdict]") {
                 table.diagnose(table.draw(5000 + 100 * k + i, amplitude * g));
             ++total;
             const EffectEvidence& e = *found.candidates[k].evidence;
-            covered += e.lower95 <= amplitude && amplitude <= e.upper95;
+            covered += e.interval.lower95 <= amplitude && amplitude <= e.interval.upper95;
             if (!found.verdict.is_flagged) continue;
             ++flagged;
             in_set += names(found.verdict, k);

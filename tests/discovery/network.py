@@ -6,6 +6,9 @@ from pathlib import Path
 import numpy as np
 
 
+_TRANSFORMS = {"linear": np.asarray, "log10": np.log10, "square_root": np.sqrt}
+
+
 class Network:
     """Sizes [mm] from (shape, inputs), and the network's own error covariance by shape."""
 
@@ -56,5 +59,4 @@ class Network:
 
 
 def _standard(item: dict, values: np.ndarray) -> np.ndarray:
-    shown = np.log10(values) if item["transform"] == "log10" else values
-    return (shown - item["shift"]) / item["scale"]
+    return (_TRANSFORMS[item["transform"]](values) - item["shift"]) / item["scale"]

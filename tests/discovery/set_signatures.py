@@ -26,7 +26,7 @@ POINTS_A_SHAPE = 9
 SEED = 77
 # Amplitudes of the pairs: this many standard errors of measurements and network, as far as
 # the range allows. What is hidden lies below; far beyond it sizes bend.
-SIGMAS = 26
+SIGMAS = 14
 SHARES = (0.5, 1.0)  # in turn, so that a curvature shows
 
 

@@ -12,6 +12,7 @@ namespace {
 
 constexpr int spans_of_scan = 12;
 constexpr double precision = 0.01;  // of an end's distance from the best amplitude
+constexpr int most_halvings = 24;   // where nothing but the best amplitude is allowed
 constexpr double excluded = 3.841;  // chi^2 of one degree of freedom at 95 %
 
 /// An amplitude with the parameters that fit it best.
@@ -54,8 +55,11 @@ double outermost(const DiagnosisProblem& problem, const Refit& best, double end)
             beyond = at;
     }
     if (!beyond) return allowed.amplitude;
-    while (std::abs(beyond->amplitude - allowed.amplitude) >
-           precision * std::abs(beyond->amplitude - start)) {
+    const auto is_rough = [&] {
+        return std::abs(beyond->amplitude - allowed.amplitude) >
+               precision * std::abs(beyond->amplitude - start);
+    };
+    for (int i = 0; i < most_halvings && is_rough(); ++i) {
         at = {0.5 * (allowed.amplitude + beyond->amplitude), allowed.unit};
         (is_allowed(problem, best, at) ? allowed : *beyond) = at;
     }

@@ -65,4 +65,4 @@ def _verdicts(axes, cases: list[Case]) -> None:
     axes.set_yticks(range(len(rows)), names, fontsize=8)
     axes.invert_yaxis()
     axes.set_xlabel("what was said, per cent of the tables")
-    axes.legend(fontsize=8, loc="upper center", bbox_to_anchor=(0.5, 1.08), ncol=4)
+    axes.legend(fontsize=8, loc="upper right", bbox_to_anchor=(1.0, 1.08), ncol=4)

@@ -24,7 +24,7 @@ Eigen::Quaterniond changed_orientation(const std::vector<OrientationChange>& cha
 
 /// Orientations of `per_point` grains for each of `points` points, point by point. Each
 /// point has the same isotropic set under a rotation of its own, and the rotations of
-/// points that follow each other cover all of them evenly: half the scatter of
+/// points that follow each other cover all of them evenly: less scatter than
 /// independent grains, and no texture common to all points.
 std::vector<Eigen::Quaterniond> grain_orientations(
     std::size_t points, std::size_t per_point, std::uint64_t seed,

@@ -19,7 +19,7 @@ from signature_model import SignatureModel, read_pairs
 from specimens import TRUTHS, design_of, shot_set
 
 # Standard errors of the measurements and of the network. The diagnosis counts more, above all
-# what is alike for all shots of a shape: it leaves a third to two thirds of a signal.
+# what is alike for all shots of a shape: it mostly leaves a third to two thirds of a signal.
 SIGMAS = {SIX_SIGMA: 12.0, STRONG: 24.0, FROM_PRIOR: 14.0}
 # What is listed stays below the amplitudes of its pairs: a fit that ends beyond them asks for
 # others, which a user would compute and these tables cannot.

@@ -10,6 +10,7 @@ import pytest
 from candidate_lists import kept_rows
 from corruption import corrupted, swapped_digits
 from hidden_signal import NOISE, VELOCITY_NOISE
+from hide import SIGMAS
 from make_tables import Generator, write_table
 from measurements import read_measurements
 from plan import ALL, NULLS_A_SET, SEED, SETS, SIX_SIGMA, list_names, plan
@@ -116,7 +117,7 @@ def test_amplitudes_reach_the_signal_asked_for(made):
     """In a study whose effects are linear the runs' signal is what was aimed at."""
     for _, _, truth in of_kind(made, "effect"):
         if truth["strength"] == SIX_SIGMA:
-            assert truth["signal_sd"] == pytest.approx(10, rel=0.05)
+            assert truth["signal_sd"] == pytest.approx(SIGMAS[SIX_SIGMA], rel=0.05)
 
 
 def test_a_plain_table_hides_nothing(made):

@@ -19,6 +19,7 @@ SHOT_INPUTS = {
 
 
 HELD_OUT_UNDERSTATE = 3  # see calibrate/README.md
+NEIGHBOURS = 30  # held-out runs that tell the error near a point
 
 
 class Network:
@@ -31,21 +32,13 @@ class Network:
         layers = model["members"][model["best"]]["layers"]
         self.layers = [(np.array(x["weights"]), np.array(x["bias"])) for x in layers]
         self.covariances = model["validation"]["covariance"]
+        self.held_out = model["validation"].get("held_out")
 
     def sizes(self, shape, values: dict) -> np.ndarray:
         """Outputs [points x outputs] in mm; shape and each value are one or an array."""
         values = {name: np.asarray(value, float) for name, value in values.items()}
         points = max(value.size for value in values.values())
-        columns = []
-        for info in self.inputs:
-            if not info.get("used", True):
-                continue
-            value = values[info["name"]]
-            if info.get("transform") == "log10":
-                value = np.log10(value)
-            elif info.get("transform") == "square_root":
-                value = np.sqrt(value)
-            columns.append(np.broadcast_to((value - info["shift"]) / info["scale"], points))
+        columns = [np.broadcast_to(column, points) for column in self.seen(values)]
         hot = [np.broadcast_to(np.equal(shape, name).astype(float), points) for name in self.shapes]
         signal = np.vstack([*columns, *hot])
         for number, (weights, bias) in enumerate(self.layers):
@@ -60,11 +53,38 @@ class Network:
             result.append(line)
         return np.array(result).T
 
+    def seen(self, values: dict) -> list:
+        """The used inputs as the network sees them."""
+        columns = []
+        for info in self.inputs:
+            if not info.get("used", True):
+                continue
+            value = values[info["name"]]
+            if info.get("transform") == "log10":
+                value = np.log10(value)
+            elif info.get("transform") == "square_root":
+                value = np.sqrt(value)
+            columns.append((value - info["shift"]) / info["scale"])
+        return columns
+
     def error_covariance(self, shape: str, names: list, values: dict) -> np.ndarray:
-        """Covariance [mm^2] of the solver's minus the network's sizes."""
+        """Covariance [mm^2] of the solver's minus the network's sizes near a point: of the
+        nearest held-out runs, that of all runs of the shape counted as one more.
+        """
         entry = self.covariances[shape]
         at = [entry["outputs"].index(name) for name in names]
         matrix = np.array(entry["matrix"])[np.ix_(at, at)]
+        if self.held_out:
+            own = np.equal(self.held_out["categories"], shape)
+            every = [output["name"] for output in self.outputs]
+            columns = [every.index(name) for name in entry["outputs"]]
+            errors = np.array(self.held_out["errors"], float)[own][:, columns]
+            places = np.array(self.held_out["places"], float)[own]
+            known = np.isfinite(errors).all(axis=1)
+            if known.sum() > NEIGHBOURS:
+                away = ((places[known] - self.seen(values)) ** 2).sum(axis=1)
+                near = errors[known][np.argsort(away)[:NEIGHBOURS]][:, at]
+                matrix = (matrix + near.T @ near) / (NEIGHBOURS + 1)
         by_name = {output["name"]: output for output in self.outputs}
         scale = [np.prod([values[i] for i in by_name[n]["divide_by"]]) for n in names]
         return HELD_OUT_UNDERSTATE * matrix * np.outer(scale, scale)
@@ -74,7 +94,9 @@ class TableLikelihood:
     """ln of likelihood times prior mass of the spread, for points of the unit cube."""
 
     def __init__(self, emulator: Path, table: Path, config: dict, reference: np.ndarray):
-        """`reference`: plain parameters at which the velocity's influence is taken."""
+        """`reference`: plain parameters at which the velocity's influence and the network's error
+        are taken.
+        """
         self.network = Network(emulator)
         self.parameters = config["parameters"]
         self.levels, self.log_mass = self._spread(config.get("unexplained_spread"))
@@ -141,7 +163,8 @@ class TableLikelihood:
         )
         slope = (high - low) / (ends[1] - ends[0])
         fixed = np.diag(sd**2) + np.outer(slope, slope) * sd_velocity**2
-        fixed += self.network.error_covariance(row["shape"], sizes, values)
+        point = {info["name"]: x for info, x in zip(config["parameters"], reference)}
+        fixed += self.network.error_covariance(row["shape"], sizes, {**values, **point})
         inverses, norms = [], []
         for spread in self.levels:
             covariance = fixed + spread**2 * np.diag(measured**2)

@@ -203,6 +203,18 @@ TEST_CASE("what is known badly excludes little", "[evidence]") {
     CHECK(rough.upper95 == Approx(2.939).epsilon(0.02));
 }
 
+TEST_CASE("where nothing but the best amplitude is allowed the search ends",
+          "[evidence]") {
+    // The least amplitude shifts the data by five: its interval is a point.
+    BentTable table;
+    int shifts = 0;
+    table.shift_of = [&](double k) { return ++shifts, k > 0 ? k + 5 : 0; };
+    const AmplitudeInterval interval = table.evidence_of(0, 8).interval;
+    CHECK(interval.lower95 == 0);
+    CHECK(interval.upper95 < 1e-6);
+    CHECK(shifts < 8000);
+}
+
 TEST_CASE("nothing is found where no paired run is", "[evidence]") {
     BentTable table;
     table.shift_of = [](double k) { return k * (k - 2) / 15; };

@@ -107,6 +107,8 @@ class Fit:
 
 @dataclass(frozen=True)
 class Optimum:
+    """The best place of a fit."""
+
     place: np.ndarray  # shares of the ranges, amplitude over the usual one
     theta: np.ndarray
     amplitude: float
@@ -126,8 +128,8 @@ class Table:
     def fit(self, chosen: np.ndarray, candidate: dict | None) -> Fit:
         return Fit(self.model(chosen), self.measured[chosen], self._signatures, candidate)
 
-    def chi2_left_out(self, fitted: np.ndarray, candidate: dict | None, first=None) -> float:
-        """Of the shots that are not `fitted`, whitened at what the others say."""
+    def chi2_left_out(self, fitted: np.ndarray, candidate: dict | None, first: Optimum) -> float:
+        """Of the shots not `fitted`, whitened at what the others say; the fit starts at `first`."""
         fit = self.fit(fitted, candidate)
         best = fit.solve(first)
         held = self.model(~fitted)

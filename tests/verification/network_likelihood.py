@@ -19,6 +19,7 @@ SHOT_INPUTS = {
 
 
 HELD_OUT_UNDERSTATE = 3  # see calibrate/README.md
+TRANSFORMS = {"linear": np.asarray, "log10": np.log10, "square_root": np.sqrt}
 NEIGHBOURS = 30  # held-out runs that tell the error near a point
 
 
@@ -59,11 +60,7 @@ class Network:
         for info in self.inputs:
             if not info.get("used", True):
                 continue
-            value = values[info["name"]]
-            if info.get("transform") == "log10":
-                value = np.log10(value)
-            elif info.get("transform") == "square_root":
-                value = np.sqrt(value)
+            value = TRANSFORMS[info["transform"]](values[info["name"]])
             columns.append((value - info["shift"]) / info["scale"])
         return columns
 

@@ -10,7 +10,7 @@
 namespace taylorcal::calibrate {
 namespace {
 
-constexpr int spans_of_scan = 12;
+constexpr int spans_of_search = 12;
 constexpr double precision = 0.01;  // of an end's distance from the best amplitude
 constexpr int most_halvings = 24;   // where nothing but the best amplitude is allowed
 constexpr double excluded = 3.841;  // chi^2 of one degree of freedom at 95 %
@@ -46,8 +46,8 @@ double outermost(const DiagnosisProblem& problem, const Refit& best, double end)
     if (end == start) return end;
     Held at{start, best.unit}, allowed = at;
     std::optional<Held> beyond;  // next to `allowed`
-    for (int i = 1; i <= spans_of_scan; ++i) {
-        at.amplitude = start + (end - start) * i / spans_of_scan;
+    for (int i = 1; i <= spans_of_search; ++i) {
+        at.amplitude = start + (end - start) * i / spans_of_search;
         if (is_allowed(problem, best, at)) {
             allowed = at;
             beyond.reset();

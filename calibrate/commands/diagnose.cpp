@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <optional>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -20,6 +21,17 @@ namespace {
 constexpr std::size_t shots_in_diagnosis = 5;
 constexpr std::size_t shots_in_design = 20;
 
+/// The member of the ensemble with the least errors but for the one that answers.
+std::optional<std::size_t> second_best(const emulator::Emulator& ensemble) {
+    std::optional<std::size_t> second;
+    const auto& members = ensemble.model().members;
+    for (std::size_t i = 0; i < members.size(); ++i)
+        if (i != ensemble.best() &&
+            (!second || members[i].validation_rms < members[*second].validation_rms))
+            second = i;
+    return second;
+}
+
 /// Everything read, and the diagnosis of it.
 class DiagnosedStudy {
   public:
@@ -28,15 +40,26 @@ class DiagnosedStudy {
           levels_(spread_levels(inputs_.settings)),
           posterior_(
               read_posterior(paths.posterior, inputs_.space, levels_, inputs_.settings)),
-          study_(read(paths, threads)) {
+          candidates_(read_candidates(paths.candidates)),
+          runs_(read_paired_runs(paths.signatures, inputs_.settings, candidates_)),
+          finer_(read_finer(paths)),
+          study_(with_network(inputs_.predictor, threads)) {
         require(inputs_.settings.likelihood == LikelihoodForm::full,
                 fmt::format("{}: likelihood = paper has no model of the errors, without "
                             "which nothing can be found missing. Set it to full.",
                             files.settings.string()));
-        const auto problem_at = [&](const Eigen::VectorXd& unit) {
-            return study_.problem_at(unit);
-        };
-        result = calibrate::diagnose(problem_at, study_.starts());
+        for (std::size_t k = 0; k < candidates_.size(); ++k)
+            if (!runs_.has_column[k])
+                spdlog::warn("{}: no column {}; it could not be seen",
+                             paths.signatures.string(), candidates_[k].name);
+        result = diagnosis_of(study_);
+        const emulator::Emulator& ensemble = inputs_.predictor.emulator();
+        if (const std::optional<std::size_t> second = second_best(ensemble)) {
+            const NetworkPredictor network(ensemble.answering_with(*second),
+                                           inputs_.settings);
+            const DiagnosisStudy study(with_network(network, threads));
+            ask_second_network(result, diagnosis_of(study).verdict);
+        }
     }
     DiagnosisProblem problem() const {
         return study_.problem_at(result.modes.front().base.unit);
@@ -49,32 +72,29 @@ class DiagnosedStudy {
     Diagnosis result;
 
   private:
-    DiagnosisInputs read(const DiagnosisPaths& paths, int threads) const {
-        DiagnosisInputs all{inputs_.settings,
-                            inputs_.set,
-                            inputs_.space,
-                            inputs_.predictor,
-                            posterior_,
-                            read_candidates(paths.candidates),
-                            {},
-                            {},
-                            threads};
-        all.runs = read_paired_runs(paths.signatures, inputs_.settings, all.candidates);
-        for (std::size_t k = 0; k < all.candidates.size(); ++k)
-            if (!all.runs.has_column[k])
-                spdlog::warn("{}: no column {}; it could not be seen",
-                             paths.signatures.string(), all.candidates[k].name);
-        all.finer.resize(all.runs.bases.size());
-        if (!paths.finer.empty())
-            all.finer = finer_changes(
-                all.runs, read_paired_runs(paths.finer, inputs_.settings, all.candidates),
-                paths.finer);
-        return all;
+    static Diagnosis diagnosis_of(const DiagnosisStudy& study) {
+        const auto problem_at = [&](const Eigen::VectorXd& unit) {
+            return study.problem_at(unit);
+        };
+        return calibrate::diagnose(problem_at, study.starts());
+    }
+    std::vector<Eigen::VectorXd> read_finer(const DiagnosisPaths& paths) const {
+        if (paths.finer.empty()) return std::vector<Eigen::VectorXd>(runs_.bases.size());
+        return finer_changes(runs_,
+                             read_paired_runs(paths.finer, inputs_.settings, candidates_),
+                             paths.finer);
+    }
+    DiagnosisInputs with_network(const Predictor& network, int threads) const {
+        return {inputs_.settings, inputs_.set, inputs_.space, network, posterior_,
+                candidates_,      runs_,       finer_,        threads};
     }
 
     StudyInputs inputs_;
     SpreadLevels levels_;
     StoredPosterior posterior_;
+    std::vector<Candidate> candidates_;
+    PairedRuns runs_;
+    std::vector<Eigen::VectorXd> finer_;  // by base run, empty where there are none
     DiagnosisStudy study_;
 };
 

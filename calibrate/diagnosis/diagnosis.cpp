@@ -53,10 +53,9 @@ bool same_suspects(const Verdict& a, const Verdict& b) {
 
 }  // namespace
 
-Verdict worst_case(const std::vector<ModeDiagnosis>& modes) {
-    Verdict verdict = modes.front().verdict;
-    for (const ModeDiagnosis& mode : modes) {
-        const Verdict& other = mode.verdict;
+Verdict worst_case(const std::vector<Verdict>& verdicts) {
+    Verdict verdict = verdicts.front();
+    for (const Verdict& other : verdicts) {
         if (!other.is_flagged) return other;
         if (other.kind == verdict.kind && other.effects == verdict.effects &&
             same_suspects(other, verdict))
@@ -72,6 +71,11 @@ Verdict worst_case(const std::vector<ModeDiagnosis>& modes) {
                            : VerdictKind::not_distinguishable;
     }
     return verdict;
+}
+
+void ask_second_network(Diagnosis& diagnosis, const Verdict& second) {
+    diagnosis.by_network = {diagnosis.verdict, second};
+    diagnosis.verdict = worst_case(diagnosis.by_network);
 }
 
 Diagnosis diagnose(const ProblemAt& problem_at, const RowMatrix& starts) {
@@ -91,7 +95,9 @@ Diagnosis diagnose(const ProblemAt& problem_at, const RowMatrix& starts) {
         sum += std::exp(mode.log_height - highest);
     for (ModeDiagnosis& mode : diagnosis.modes)
         mode.share = std::exp(mode.log_height - highest) / sum;
-    diagnosis.verdict = worst_case(diagnosis.modes);
+    std::vector<Verdict> verdicts;
+    for (const ModeDiagnosis& mode : diagnosis.modes) verdicts.push_back(mode.verdict);
+    diagnosis.verdict = worst_case(verdicts);
     return diagnosis;
 }
 

@@ -11,7 +11,9 @@ namespace taylorcal::calibrate {
 /// A diagnosis over all modes of the parameters that count.
 struct Diagnosis {
     std::vector<ModeDiagnosis> modes;  ///< the likeliest first
-    Verdict verdict;                   ///< worst case over the modes
+    Verdict verdict;                   ///< worst case over modes and networks
+    std::vector<Verdict>
+        by_network;  ///< where several were asked: that of the modes first
 };
 
 /// The problem seen from one point of the parameters: errors depend on it.
@@ -21,9 +23,13 @@ using ProblemAt = std::function<DiagnosisProblem(const Eigen::VectorXd& unit)>;
 /// differently and have at least 5 % of the evidence, and diagnoses at each.
 Diagnosis diagnose(const ProblemAt& problem_at, const RowMatrix& starts);
 
-/// No effect is supported if any mode explains the data. An effect that one mode needs
-/// and another does not see is never the only answer.
-Verdict worst_case(const std::vector<ModeDiagnosis>& modes);
+/// Of the verdicts at several modes, or with several networks: no effect is supported if
+/// any explains the data. An effect that one needs and another does not see is never the
+/// only answer.
+Verdict worst_case(const std::vector<Verdict>& verdicts);
+
+/// Holds the verdict against that of the same table with another network.
+void ask_second_network(Diagnosis& diagnosis, const Verdict& second);
 
 /// One paragraph for a materials scientist.
 std::string verdict_words(const DiagnosisProblem& problem, const Diagnosis& diagnosis);

@@ -176,6 +176,9 @@ json to_json(const DiagnosisProblem& problem, const Diagnosis& diagnosis,
     const ModeDiagnosis& mode = diagnosis.modes.front();
     json verdict = verdict_json(problem, diagnosis.verdict);
     verdict["words"] = verdict_words(problem, diagnosis);
+    verdict["networks"] = json::array();
+    for (const Verdict& of_network : diagnosis.by_network)
+        verdict["networks"].push_back(verdict_json(problem, of_network));
     json candidates = json::array(), names = json::array(), cosine = json::array();
     json pairs = json::array(), modes = json::array(), residual_sd = json::object();
     for (const std::size_t k : order_of(mode)) {

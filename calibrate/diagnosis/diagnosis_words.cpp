@@ -39,13 +39,20 @@ std::string misfit_words(const Contrast& contrast) {
         contrast.z);
 }
 
-std::string adequacy_words(const Adequacy& adequacy, bool is_flagged) {
+std::string adequacy_words(const Adequacy& adequacy, bool is_flagged, double level) {
     const std::string numbers = fmt::format(
         "chi^2 {:.0f} on {} degrees of freedom, p = {:.2g}; patterns by shape and size p "
         "= "
         "{:.2g}; listed candidates p = {:.2g}; the wildest shot p = {:.2g}",
         adequacy.chi2, adequacy.n - adequacy.parameters, adequacy.p_chi2,
         adequacy.p_battery, adequacy.p_score, adequacy.p_bad_data);
+    const bool fails = std::min({adequacy.p_chi2, adequacy.p_battery, adequacy.p_score,
+                                 adequacy.p_bad_data}) < level;
+    if (!is_flagged && fails)
+        return fmt::format(
+            "Whether the calibrated model explains the {} measured numbers within their "
+            "errors depends on where it is asked ({}). ",
+            adequacy.n, numbers);
     if (!is_flagged)
         return fmt::format(
             "The calibrated model explains all {} measured numbers within their errors "
@@ -176,6 +183,27 @@ std::string finding_words(const DiagnosisProblem& problem, const Diagnosis& diag
     return "";
 }
 
+/// Whether a second network of the same runs says the same, and else what each says.
+std::string network_words(const DiagnosisProblem& problem, const Diagnosis& diagnosis) {
+    if (diagnosis.by_network.empty()) return "";
+    std::vector<std::string> answers;
+    for (const Verdict& verdict : diagnosis.by_network) {
+        std::vector<std::string> names;
+        for (const std::size_t k : verdict.effects)
+            names.push_back(in_words(problem.candidates[k].name));
+        for (const Suspect& suspect : verdict.suspects)
+            names.push_back(suspect_words(problem, suspect));
+        answers.push_back(fmt::format("{}{}{}", verdict_word(verdict.kind),
+                                      names.empty() ? "" : ": ", fmt::join(names, ", ")));
+    }
+    if (answers.front() == answers.back())
+        return "A second network of the same runs says the same. ";
+    return fmt::format(
+        "Two networks of the same runs say different things ({}; {}): what is said here "
+        "holds for both. ",
+        answers.front(), answers.back());
+}
+
 /// What these data could not have shown.
 std::string blind_words(const DiagnosisProblem& problem, const Diagnosis& diagnosis) {
     std::vector<std::string> absorbed, unseen, small;
@@ -217,9 +245,10 @@ std::string in_words(const std::string& name) {
 
 std::string verdict_words(const DiagnosisProblem& problem, const Diagnosis& diagnosis) {
     std::string words =
-        adequacy_words(diagnosis.modes.front().adequacy, diagnosis.verdict.is_flagged) +
-        finding_words(problem, diagnosis) + wild_words(problem, diagnosis) +
-        blind_words(problem, diagnosis);
+        adequacy_words(diagnosis.modes.front().adequacy, diagnosis.verdict.is_flagged,
+                       Adequacy::level_of_test(problem.alpha)) +
+        finding_words(problem, diagnosis) + network_words(problem, diagnosis) +
+        wild_words(problem, diagnosis) + blind_words(problem, diagnosis);
     while (!words.empty() && words.back() == ' ') words.pop_back();
     return words;
 }

@@ -65,6 +65,12 @@ Emulator::Emulator(Model model) : model_(answering(std::move(model))) {
     }
 }
 
+Emulator Emulator::answering_with(std::size_t member) const {
+    Model model = model_;
+    model.best = member;
+    return Emulator(std::move(model));
+}
+
 int Emulator::input_index(const std::string& name) const {
     return index_of(name, names_of(model_.inputs), "input");
 }

@@ -24,6 +24,8 @@ class Emulator {
     const Category& category() const { return model_.category; }
     std::size_t members() const { return model_.members.size(); }
     std::size_t best() const { return model_.best; }
+    /// The same ensemble with another member answering.
+    Emulator answering_with(std::size_t member) const;
     /// What answers: of a file that corrects cheaper runs without their column.
     const Model& model() const { return model_; }
 

@@ -56,6 +56,7 @@ def diagnose(table: Path, listed: Path, folder: Path) -> dict:
 @pytest.mark.parametrize("table", sorted(SMALL.glob("*/")), ids=lambda folder: folder.name)
 def test_the_diagnosis_says_what_is_hidden(table, listed, tmp_path):
     verdict = diagnose(table, listed, tmp_path)["verdict"]
+    assert len(verdict["networks"]) == 2
     truth = json.loads((table / "truth.json").read_text())
     if truth["kind"] == "null":
         assert not verdict["flagged"] and verdict["kind"] == "no effect supported"

@@ -8,6 +8,7 @@
 
 using namespace taylorcal;
 using namespace taylorcal::calibrate;
+using Catch::Matchers::Contains;
 
 namespace {
 
@@ -175,27 +176,49 @@ TEST_CASE("nothing is named that the evidence does not tell from nothing", "[ver
     CHECK(named >= 5);
 }
 
-TEST_CASE("the verdict over modes is the most cautious one", "[modes]") {
+TEST_CASE("the verdict over modes or networks is the most cautious one", "[modes]") {
     const toys::LinearTable table;
     const Eigen::VectorXd g = table.effects.col(2);
-    const Eigen::VectorXd sound = table.draw(1001, table.no_shift());
-    const Eigen::VectorXd missing = table.draw(1001, table.amplitude_of(g, 9) * g);
-    std::vector<ModeDiagnosis> modes{table.diagnose(missing), table.diagnose(missing)};
-    REQUIRE(modes[0].verdict.is_flagged);
-    CHECK(worst_case(modes).effects == modes[0].verdict.effects);
+    const Verdict sound = table.diagnose(table.draw(1001, table.no_shift())).verdict;
+    const Verdict missing =
+        table.diagnose(table.draw(1001, table.amplitude_of(g, 9) * g)).verdict;
+    REQUIRE(missing.is_flagged);
+    CHECK(worst_case({missing, missing}).effects == missing.effects);
     // Another mode needs another effect: either.
-    modes[0].verdict.kind = modes[1].verdict.kind = VerdictKind::effect;
-    modes[0].verdict.effects = {2};
-    modes[1].verdict.effects = {4};
-    CHECK(worst_case(modes).kind == VerdictKind::one_of);
-    CHECK(worst_case(modes).effects == std::vector<std::size_t>{2, 4});
+    Verdict one = missing, other = missing;
+    one.kind = other.kind = VerdictKind::effect;
+    one.effects = {2};
+    other.effects = {4};
+    CHECK(worst_case({one, other}).kind == VerdictKind::one_of);
+    CHECK(worst_case({one, other}).effects == std::vector<std::size_t>{2, 4});
     // Another mode has no name for it.
-    modes[1].verdict.kind = VerdictKind::outside_the_list;
-    modes[1].verdict.effects.clear();
-    CHECK(worst_case(modes).kind == VerdictKind::not_distinguishable);
+    other.kind = VerdictKind::outside_the_list;
+    other.effects.clear();
+    CHECK(worst_case({one, other}).kind == VerdictKind::not_distinguishable);
     // Another mode explains everything.
-    modes[1] = table.diagnose(sound);
-    CHECK_FALSE(worst_case(modes).is_flagged);
+    CHECK_FALSE(worst_case({one, sound}).is_flagged);
+}
+
+TEST_CASE("a second network must say the same", "[modes]") {
+    const toys::LinearTable table;
+    const Eigen::VectorXd g = table.effects.col(2);
+    const Eigen::VectorXd y = table.draw(1001, table.amplitude_of(g, 9) * g);
+    const DiagnosisProblem problem = table.problem(y);
+    const Diagnosis alone = diagnose([&](const Eigen::VectorXd&) { return problem; },
+                                     RowMatrix::Constant(1, 3, 0.5));
+    REQUIRE(alone.verdict.is_flagged);
+
+    Diagnosis agreed = alone;
+    ask_second_network(agreed, alone.verdict);
+    CHECK(agreed.verdict.effects == alone.verdict.effects);
+    CHECK_THAT(verdict_words(problem, agreed), Contains("says the same"));
+
+    Diagnosis doubted = alone;
+    ask_second_network(doubted, Verdict{});
+    CHECK_FALSE(doubted.verdict.is_flagged);
+    CHECK_THAT(verdict_words(problem, doubted),
+               Contains("different things") && Contains("no effect supported") &&
+                   Contains("depends on where it is asked"));
 }
 
 TEST_CASE("one thread and two give the same diagnosis", "[threads]") {

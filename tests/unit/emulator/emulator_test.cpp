@@ -79,9 +79,14 @@ TEST_CASE("inference equals the file's recipe", "[emulator]") {
             }
         }
     }
-    Block best;
+    Block best, other, asked;
     emulator.evaluate(points, 1, best, workspace);
     CHECK((best == results).all());
+    // Another member may answer in its place.
+    emulator.evaluate_member(0, points, 1, other, workspace);
+    emulator.answering_with(0).evaluate(points, 1, asked, workspace);
+    CHECK((asked == other).all());
+    CHECK((asked != best).any());
 }
 
 TEST_CASE("a model keeps every bit in its file", "[emulator]") {

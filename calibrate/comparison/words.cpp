@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <regex>
 
 #include <fmt/core.h>
 
@@ -63,9 +64,12 @@ std::string size_in_words(const std::string& size) {
 }
 
 std::string shape_in_words(const std::string& shape) {
-    if (shape == "reduced_head_4mm") return "4-mm head";
-    if (shape == "reduced_head_3mm") return "3-mm head";
-    return with_spaces(shape);
+    static const std::regex measured("(reduced_head|truncated_cone)_([0-9.]+)mm(.*)");
+    std::smatch parts;
+    if (!std::regex_match(shape, parts, measured)) return with_spaces(shape);
+    const std::string rest = std::regex_replace(parts[3].str(), std::regex("mm"), " mm");
+    return fmt::format("{}-mm {}{}", parts[2].str(),
+                       parts[1] == "reduced_head" ? "head" : "cone", with_spaces(rest));
 }
 
 std::string group_words(const ResidualGroup& group) {

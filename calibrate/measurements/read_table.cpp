@@ -124,7 +124,8 @@ Shot read_shot(const Row& row) {
     shot.id = row.text("id");
     shot.lot = row.text("lot");
     shot.use = static_cast<Use>(row.word("use", use_words(), "use"));
-    shot.shape = shape_words()[row.word("shape", shape_words(), "shape")];
+    shot.shape = row.text("shape");
+    if (!is_measured_shape(shot.shape)) row.word("shape", shape_words(), "shape");
     shot.velocity_m_s = row.positive("velocity_m_s");
     shot.velocity_sd_m_s = row.positive_if_any("velocity_sd_m_s");
     shot.initial_temperature_K = row.positive("initial_temperature_K");

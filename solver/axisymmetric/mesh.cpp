@@ -31,16 +31,19 @@ struct Division {
 };
 
 /// Refined divisions are what brings sizes to their limits within 1 % or so
-/// (tests/verification, convergence); the others take a third of the time.
-Division division_of(specimen::ShapeKind kind, bool refined) {
-    switch (kind) {
-        case specimen::ShapeKind::reduced_head_4mm:
-            return {refined ? 11.0 / 8 : 1, 2};
-        case specimen::ShapeKind::reduced_head_3mm:
+/// (tests/verification, convergence); the others take a third of the time. Heads of other
+/// widths are cut as the nearer of the paper's two.
+Division division_of(const specimen::Profile& profile, bool refined) {
+    constexpr double between_heads =
+        (specimen::reduced_head_3mm.end_radius + specimen::reduced_head_4mm.end_radius) /
+        2;
+    switch (profile.kind) {
+        case specimen::ProfileKind::stepped:
+            if (profile.end_radius > between_heads) return {refined ? 11.0 / 8 : 1, 2};
             return {refined ? 9.0 / 8 : 1, refined ? 3.0 : 2.0};
-        case specimen::ShapeKind::truncated_cone:
+        case specimen::ProfileKind::tapered:
             return {1, refined ? 3.0 : 6.0};
-        case specimen::ShapeKind::uniform_cylinder:
+        case specimen::ProfileKind::cylinder:
             break;
     }
     return {1, square_aspect};
@@ -50,7 +53,7 @@ Division division_of(specimen::ShapeKind kind, bool refined) {
 struct Section {
     double bottom, top;                ///< heights [m]
     double bottom_radius, top_radius;  ///< [m]
-    specimen::ShapeKind kind;          ///< of the specimen
+    specimen::ProfileKind kind;        ///< of the specimen
     bool head;                         ///< below the head-rear section
     double head_aspect;                ///< see Division
 
@@ -59,13 +62,13 @@ struct Section {
     }
     double aspect_at(double height) const {
         const double radii = (height - bottom) / bottom_radius;
-        if (kind == specimen::ShapeKind::uniform_cylinder) {
+        if (kind == specimen::ProfileKind::cylinder) {
             const double far = std::max(0.0, radii - cylinder_square_radii);
             return std::min(square_aspect + cylinder_growth * far,
                             cylinder_tallest_aspect);
         }
         if (!head) return square_aspect;
-        if (kind != specimen::ShapeKind::truncated_cone) return head_aspect;
+        if (kind != specimen::ProfileKind::tapered) return head_aspect;
         const double share = std::min(1.0, radii / cone_tip_radii);
         return std::lerp(head_aspect, square_aspect, share);
     }
@@ -78,7 +81,8 @@ std::vector<Section> sections_of(const specimen::Shape& shape, double head_aspec
         if (height[i + 1] <= height[i]) continue;  // a step
         const bool head = height[i + 1] <= shape.head_length * (1 + 1e-12);
         sections.push_back({height[i], height[i + 1], shape.station_radius[i],
-                            shape.station_radius[i + 1], shape.kind, head, head_aspect});
+                            shape.station_radius[i + 1], shape.profile.kind, head,
+                            head_aspect});
     }
     return sections;
 }
@@ -141,7 +145,7 @@ std::vector<double> columns_of(double inner, double outer, double share, long ac
 
 Mesh make_mesh(const specimen::Shape& shape, int wanted_across, bool refined) {
     Mesh mesh;
-    const Division division = division_of(shape.kind, refined);
+    const Division division = division_of(shape.profile, refined);
     const long across = std::lround(division.columns * wanted_across);
     const std::vector<Section> sections = sections_of(shape, division.head_aspect);
     const double rear_radius = shape.rear_radius();
@@ -149,7 +153,7 @@ Mesh make_mesh(const specimen::Shape& shape, int wanted_across, bool refined) {
                          sections.front().bottom_radius == sections.front().top_radius;
     const double inner = stepped ? sections.front().top_radius : rear_radius;
     double share = stepped ? head_column_share : 1;
-    if (shape.kind == specimen::ShapeKind::truncated_cone) share = cone_column_share;
+    if (shape.profile.kind == specimen::ProfileKind::tapered) share = cone_column_share;
     const std::vector<double> radii = columns_of(inner, rear_radius, share, across);
     std::size_t inner_columns = 0;
     while (radii[inner_columns] < inner * (1 - 1e-9)) ++inner_columns;

@@ -142,7 +142,7 @@ std::vector<impact::ImpactCase> make_cases(const Design& design,
         Shot shot;
         double length_to_diameter = 0;
         try {
-            shot.shape = specimen::shape_from_name(design.shape[row]);
+            shot.shape = design.shape[row];
             require(design.seed[row] >= 0,
                     fmt::format("seed = {} (expected 0 or more).", design.seed[row]));
             shot.seed = static_cast<std::uint64_t>(design.seed[row]);

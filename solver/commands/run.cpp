@@ -26,7 +26,6 @@ struct RunOptions {
     std::string fidelity;
     std::vector<std::string> settings;
     std::vector<std::string> numerics;
-    std::string shape = "uniform_cylinder";
     Shot shot;
     double until_us = 0;
     std::string out;
@@ -41,6 +40,8 @@ const char* const samples = R"(Sample runs:
   solver run --velocity 117.6 --geometry 3d --set hardening_coefficient=2.8
   solver run --shape truncated_cone --velocity 120 --set anvil_friction=0.05
   solver run --shape reduced_head_3mm --velocity 90 --snapshots fields --every-us 10
+  solver run --shape truncated_cone_3mm_by_9mm_of_7.6mm_by_25.4mm --velocity 150 \
+    --diameter-mm 7.6 --length-mm 25.4
   solver run --velocity 227 --diameter-mm 6.4 --length-mm 32.4 --until-us 80 \
     --set strength=j2 --set equation_of_state=linear --set bulk_modulus=130e9 \
     --set poisson_ratio=0.35)";
@@ -109,9 +110,8 @@ std::int64_t peak_memory() {
     return 0;
 }
 
-void run(RunOptions options) {
+void run(const RunOptions& options) {
     const Configuration configuration = configuration_of(options);
-    options.shot.shape = specimen::shape_from_name(options.shape);
     impact::ImpactCase impact_case =
         make_case(options.shot, configuration, "command line");
     require(options.until_us >= 0 && options.until_us <= 1e4,
@@ -150,9 +150,10 @@ void add_run(CLI::App& app) {
     command->add_option("configuration", options->configuration,
                         "solver.json: geometry, fidelity, material; all optional");
     command
-        ->add_option("--shape", options->shape,
-                     "uniform_cylinder, reduced_head_4mm, reduced_head_3mm or "
-                     "truncated_cone")
+        ->add_option("--shape", options->shot.shape,
+                     "uniform_cylinder, reduced_head_4mm, reduced_head_3mm, "
+                     "truncated_cone, or measures of your own as in "
+                     "reduced_head_5mm_by_12mm")
         ->capture_default_str();
     command
         ->add_option("--velocity,--velocity-m-s", options->shot.velocity_m_s,

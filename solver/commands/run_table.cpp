@@ -48,7 +48,7 @@ std::string status_name(impact::Status status) {
 }
 
 json describe(const Shot& shot, const Configuration& configuration, double until_us) {
-    return {{"shape", specimen::shape_name(shot.shape)},
+    return {{"shape", specimen::full_name(shot.shape)},
             {"velocity_m_s", shot.velocity_m_s},
             {"initial_diameter_mm", shot.initial_diameter_mm},
             {"initial_length_mm", shot.initial_length_mm},

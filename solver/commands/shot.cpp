@@ -27,14 +27,15 @@ impact::ImpactCase make_case(const Shot& shot, const Configuration& configuratio
 
     constexpr double mm = 1e-3;
     impact::ImpactCase impact_case;
-    impact_case.shape = specimen::make_shape(shot.shape, mm * shot.initial_diameter_mm,
-                                             mm * shot.initial_length_mm);
     impact_case.velocity_m_s = shot.velocity_m_s;
     impact_case.initial_temperature_K = shot.initial_temperature_K;
     impact_case.material = configuration.material;
     impact_case.numerics = configuration.numerics;
     impact_case.seed = shot.seed;
     try {
+        impact_case.shape = specimen::make_shape(specimen::profile_named(shot.shape),
+                                                 mm * shot.initial_diameter_mm,
+                                                 mm * shot.initial_length_mm);
         effects::apply_effects(configuration.effects, impact_case);
     } catch (const InputError& error) {
         throw InputError(where + ": " + error.what());

@@ -9,7 +9,7 @@ namespace taylorcal::commands {
 
 /// One shot as users describe it, in the units of its names.
 struct Shot {
-    specimen::ShapeKind shape = specimen::ShapeKind::uniform_cylinder;
+    std::string shape = "uniform_cylinder";  ///< as `specimen::profile_named` takes it
     double velocity_m_s = 100;
     double initial_diameter_mm = 8;
     double initial_length_mm = 40;

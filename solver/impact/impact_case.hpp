@@ -40,7 +40,7 @@ Numerics numerics_for(Geometry geometry, const std::string& fidelity);
 /// One Taylor impact: a specimen that flies towards an anvil (z < 0), which is rigid and
 /// frictionless unless the additions say otherwise.
 struct ImpactCase {
-    specimen::Shape shape = specimen::make_shape(specimen::ShapeKind::uniform_cylinder);
+    specimen::Shape shape = specimen::make_shape(specimen::uniform_cylinder);
     double velocity_m_s = 100;
     double initial_temperature_K = 300;
     material::Parameters material;

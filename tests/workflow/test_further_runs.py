@@ -10,7 +10,8 @@ from measurements import check_against_study, read_measurements
 from study import at_revision, design_settings, further_design_settings, read_study, train_settings
 
 AFTERWARDS = {"merge", "train", "sample", "compare", "report"}
-SHAPE = "    - { shapes: [truncated_cone], runs: 4 }\n"
+OWN = "reduced_head_5mm_by_12mm"  # with measures that the paper has not
+SHAPE = f"    - {{ shapes: [{OWN}], runs: 4 }}\n"
 VELOCITY = "    - { velocity_m_s: [210, 240], runs: 4 }\n"
 
 
@@ -21,7 +22,7 @@ def with_parts(*parts: str) -> str:
 @pytest.mark.parametrize(
     "part, row",
     [
-        (SHAPE, NEW_ROW.replace("uniform_cylinder", "truncated_cone")),
+        (SHAPE, NEW_ROW.replace("uniform_cylinder", OWN)),
         (VELOCITY, NEW_ROW.replace(",130,", ",230,")),
     ],
     ids=["a new shape", "a velocity outside the range"],
@@ -50,7 +51,7 @@ def test_what_was_computed_stays_as_it_was(copied):
         velocity = file["inputs"][:][
             ~known, list(file["inputs"].attrs["names"]).index("velocity_m_s")
         ]
-    assert list(shapes) == ["truncated_cone"] * 4 + ["uniform_cylinder"] * 4
+    assert list(shapes) == [OWN] * 4 + ["uniform_cylinder"] * 4
     assert velocity[4:].min() >= 210 and velocity[4:].max() <= 240
     # One part more leaves the others as they are.
     (copied.study / "study.yaml").write_text(with_parts(SHAPE, VELOCITY, VELOCITY))
@@ -64,8 +65,8 @@ def test_a_shot_must_lie_within_one_part(tmp_path):
     whole = table.read_text()
     table.write_text(whole + NEW_ROW.replace(",130,", ",230,"))
     check_against_study(read_measurements(table), study, table)
-    fast_cone = NEW_ROW.replace(",130,", ",230,").replace("uniform_cylinder", "truncated_cone")
-    table.write_text(whole + fast_cone)
+    fast_head = NEW_ROW.replace(",130,", ",230,").replace("uniform_cylinder", OWN)
+    table.write_text(whole + fast_head)
     with pytest.raises(InputError, match="Add runs"):
         check_against_study(read_measurements(table), study, table)
 
@@ -77,7 +78,7 @@ def test_parts_have_numbers_of_their_own_and_revisions_cover_all(tmp_path):
     assert train_settings(study)["category"] == "shape"
     effect = {"name": "anvil_friction", "lowest": 0, "highest": 1}
     of_effect = design_settings(at_revision(study, [effect]))
-    assert of_effect["shapes"] == ["uniform_cylinder", "truncated_cone"]
+    assert of_effect["shapes"] == ["uniform_cylinder", OWN]
     assert of_effect["ranges"]["velocity_m_s"] == [100, 240]
     assert design_settings(study)["ranges"]["velocity_m_s"] == [100, 210]
 

@@ -132,6 +132,7 @@ def test_a_run_that_loses_its_energy_balance_has_failed(solver, quick):
     "arguments, words",
     [
         (["--shape", "cylindr"], ["cylindr", "uniform_cylinder"]),
+        (["--shape", "reduced_head_9mm"], ["reduced_head_9mm", "0.15 to 0.9"]),
         (["--set", "hardening_coeficient=2"], ["hardening_coeficient", '"hardening_coefficient"']),
         (["--set", "hardening_coefficient=12"], ["12", "0 to 10"]),
         (["--set", "hardening_coefficient"], ["name=value"]),

@@ -19,12 +19,12 @@ import h5py
 import numpy as np
 
 from cost.model import REFERENCE_VELOCITY
+from shape_names import PAPER_SHAPES
 
 ENOUGH_RUNS = 30
 COLUMNS = ["geometry", "fidelity", "shape", "runs"]
 COLUMNS += ["cpu_s_at_100_m_s", "velocity_exponent", "spread"]
 GEOMETRIES, FIDELITIES = ["axisymmetric", "3d"], ["coarse", "standard", "fine"]
-SHAPES = ["uniform_cylinder", "reduced_head_4mm", "reduced_head_3mm", "truncated_cone"]
 
 
 @dataclass
@@ -86,8 +86,10 @@ def fits(paths: list[Path]) -> dict[tuple, Fit]:
     return found
 
 
-def place(kind: tuple) -> tuple[int, int, int]:
-    return GEOMETRIES.index(kind[0]), FIDELITIES.index(kind[1]), SHAPES.index(kind[2])
+def place(kind: tuple) -> tuple:
+    """The paper's shapes first, others by their names."""
+    shapes = [*PAPER_SHAPES, kind[2]]
+    return GEOMETRIES.index(kind[0]), FIDELITIES.index(kind[1]), shapes.index(kind[2]), kind[2]
 
 
 def main() -> None:

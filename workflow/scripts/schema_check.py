@@ -64,6 +64,9 @@ def _worded(error) -> list[tuple[tuple, str]]:
     if rule == "enum":
         known = [str(word) for word in error.validator_value]
         return [(path, f"= {given!r} is not a known word. {did_you_mean(given, known)}")]
+    if rule == "pattern" and "words" in error.schema:
+        hint = did_you_mean(given, error.schema["words"])
+        return [(path, f"= {given!r} is not a known word. {hint} {error.schema['words_note']}")]
     if rule == "type":
         return [(path, f"= {given!r} (expected {_type_name(error)}).{_text_hint(given)}")]
     if rule == "uniqueItems":

@@ -8,13 +8,13 @@
 
 using namespace taylorcal;
 using namespace taylorcal::axisymmetric;
-using specimen::ShapeKind;
+using specimen::Profile;
 
 namespace {
 
-impact::ImpactCase small_case(ShapeKind kind, double velocity) {
+impact::ImpactCase small_case(const Profile& profile, double velocity) {
     impact::ImpactCase impact_case;
-    impact_case.shape = specimen::make_shape(kind);
+    impact_case.shape = specimen::make_shape(profile);
     impact_case.velocity_m_s = velocity;
     impact_case.numerics.elements_across_radius = 5;
     impact_case.numerics.grains_per_point = 8;
@@ -33,9 +33,9 @@ double axial_momentum(const Body& body) {
 }  // namespace
 
 TEST_CASE("a run to the stop keeps its energy and shortens its specimen") {
-    for (const ShapeKind kind :
-         {ShapeKind::uniform_cylinder, ShapeKind::reduced_head_4mm}) {
-        const auto result = axisymmetric::simulate(small_case(kind, 70));
+    for (const Profile& profile :
+         {specimen::uniform_cylinder, specimen::reduced_head_4mm}) {
+        const auto result = axisymmetric::simulate(small_case(profile, 70));
         REQUIRE(result.status == impact::Status::stopped);
         CHECK(result.descriptors.energy_error < 2e-3);
         CHECK(result.descriptors.viscous_share < 0.02);
@@ -46,7 +46,7 @@ TEST_CASE("a run to the stop keeps its energy and shortens its specimen") {
 }
 
 TEST_CASE("metal too strong to yield bounces with the energy it had") {
-    impact::ImpactCase impact_case = small_case(ShapeKind::reduced_head_4mm, 150);
+    impact::ImpactCase impact_case = small_case(specimen::reduced_head_4mm, 150);
     impact_case.material.rho_immobile_initial = 1e15;
     impact_case.material.hardening_coefficient = 10;
     const auto result = axisymmetric::simulate(impact_case);
@@ -57,8 +57,8 @@ TEST_CASE("metal too strong to yield bounces with the energy it had") {
 }
 
 TEST_CASE("an elastic wave runs along a thin bar at sqrt(E/rho)") {
-    impact::ImpactCase impact_case = small_case(ShapeKind::uniform_cylinder, 0.5);
-    impact_case.shape = specimen::make_shape(ShapeKind::uniform_cylinder, 1e-3, 40e-3);
+    impact::ImpactCase impact_case = small_case(specimen::uniform_cylinder, 0.5);
+    impact_case.shape = specimen::make_shape(specimen::uniform_cylinder, 1e-3, 40e-3);
     impact_case.material.strength = material::StrengthModel::elastic;
     impact_case.material.equation_of_state = material::EquationOfStateModel::linear;
     Body body(impact_case);
@@ -99,7 +99,7 @@ TEST_CASE("an elastic wave runs along a thin bar at sqrt(E/rho)") {
 
 TEST_CASE(
     "the anvil's impulse is the specimen's change of momentum, and it never pulls") {
-    const impact::ImpactCase impact_case = small_case(ShapeKind::uniform_cylinder, 60);
+    const impact::ImpactCase impact_case = small_case(specimen::uniform_cylinder, 60);
     Body body(impact_case);
     double before = axial_momentum(body);
     const LocalSteps steps(body);
@@ -131,7 +131,7 @@ TEST_CASE(
 }
 
 TEST_CASE("cells with unequal steps keep momentum and energy in free flight") {
-    Body body(small_case(ShapeKind::truncated_cone, 0));
+    Body body(small_case(specimen::truncated_cone, 0));
     for (std::size_t n = 0; n < body.nodes(); ++n) {
         const double height = body.height[n] / 40e-3;
         body.axial_velocity[n] = 40 + 30 * height * height;
@@ -157,7 +157,7 @@ TEST_CASE("cells with unequal steps keep momentum and energy in free flight") {
 
 TEST_CASE(
     "neighbours differ by one level at most, and touching cells step the shortest") {
-    const Body body(small_case(ShapeKind::truncated_cone, 100));
+    const Body body(small_case(specimen::truncated_cone, 100));
     LocalSteps steps(body);
     const std::size_t corner = body.mesh.rear.back();
     steps.assign(body, 1e-3, {corner});
@@ -178,7 +178,7 @@ TEST_CASE(
 }
 
 TEST_CASE("outline nodes that meet give up their closing velocity, momentum kept") {
-    impact::ImpactCase impact_case = small_case(ShapeKind::reduced_head_4mm, 0);
+    impact::ImpactCase impact_case = small_case(specimen::reduced_head_4mm, 0);
     Body body(impact_case);
     SelfContact contact(body);
     // The shoulder's outer node is brought down onto the head's side.
@@ -205,9 +205,8 @@ TEST_CASE("outline nodes that meet give up their closing velocity, momentum kept
 }
 
 TEST_CASE("the 227 m/s copper bar at a coarse setting is near the published sizes") {
-    impact::ImpactCase impact_case = small_case(ShapeKind::uniform_cylinder, 227);
-    impact_case.shape =
-        specimen::make_shape(ShapeKind::uniform_cylinder, 6.4e-3, 32.4e-3);
+    impact::ImpactCase impact_case = small_case(specimen::uniform_cylinder, 227);
+    impact_case.shape = specimen::make_shape(specimen::uniform_cylinder, 6.4e-3, 32.4e-3);
     impact_case.material.strength = material::StrengthModel::j2;
     impact_case.material.equation_of_state = material::EquationOfStateModel::linear;
     impact_case.material.poisson_ratio = 0.35;
@@ -220,7 +219,7 @@ TEST_CASE("the 227 m/s copper bar at a coarse setting is near the published size
 }
 
 TEST_CASE("a run that cannot end says so and keeps its sizes") {
-    impact::ImpactCase impact_case = small_case(ShapeKind::uniform_cylinder, 60);
+    impact::ImpactCase impact_case = small_case(specimen::uniform_cylinder, 60);
     impact_case.numerics.stop_time_limit_s = 5e-6;
     const auto result = axisymmetric::simulate(impact_case);
     CHECK(result.status == impact::Status::not_stopped);
@@ -229,7 +228,7 @@ TEST_CASE("a run that cannot end says so and keeps its sizes") {
 }
 
 TEST_CASE("a specimen that has stopped is measured though its ringing is cut short") {
-    impact::ImpactCase impact_case = small_case(ShapeKind::reduced_head_4mm, 90);
+    impact::ImpactCase impact_case = small_case(specimen::reduced_head_4mm, 90);
     const auto whole = axisymmetric::simulate(impact_case);
     impact_case.numerics.stop_time_limit_s = 1e-6 * (whole.descriptors.stop_time_us + 3);
     const auto cut = axisymmetric::simulate(impact_case);

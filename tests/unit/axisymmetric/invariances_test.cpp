@@ -17,7 +17,7 @@ using Turn = std::function<Eigen::Quaterniond(std::size_t grain)>;
 
 impact::ImpactCase short_case() {
     impact::ImpactCase impact_case;
-    impact_case.shape = specimen::make_shape(specimen::ShapeKind::reduced_head_4mm);
+    impact_case.shape = specimen::make_shape(specimen::reduced_head_4mm);
     impact_case.velocity_m_s = 90;
     impact_case.numerics.elements_across_radius = 6;
     impact_case.numerics.grains_per_point = 8;

@@ -9,24 +9,24 @@
 
 using namespace taylorcal;
 using namespace taylorcal::axisymmetric;
-using specimen::ShapeKind;
+using specimen::Profile;
 
 TEST_CASE("cells fill the profile: volume, outline and sections") {
     struct Expected {
-        ShapeKind kind;
+        Profile profile;
         double volume_mm3;
     };
     constexpr double pi = std::numbers::pi;
     // Cylinders and a truncated cone, pi h (R^2 + R r + r^2)/3.
     const Expected expected[] = {
-        {ShapeKind::uniform_cylinder, pi * 16 * 40},
-        {ShapeKind::reduced_head_4mm, pi * (4 * 10 + 16 * 30)},
-        {ShapeKind::reduced_head_3mm, pi * (2.25 * 10 + 16 * 30)},
-        {ShapeKind::truncated_cone, pi * (20.0 / 3 * (16 + 4 + 1) + 16 * 20)}};
-    for (const auto& [kind, volume_mm3] : expected) {
+        {specimen::uniform_cylinder, pi * 16 * 40},
+        {specimen::reduced_head_4mm, pi * (4 * 10 + 16 * 30)},
+        {specimen::reduced_head_3mm, pi * (2.25 * 10 + 16 * 30)},
+        {specimen::truncated_cone, pi * (20.0 / 3 * (16 + 4 + 1) + 16 * 20)}};
+    for (const auto& [profile, volume_mm3] : expected) {
         for (const auto& [across, refined] :
              {std::pair(6, false), std::pair(8, true), std::pair(13, true)}) {
-            const specimen::Shape shape = specimen::make_shape(kind);
+            const specimen::Shape shape = specimen::make_shape(profile);
             const Mesh mesh = make_mesh(shape, across, refined);
             double volume = 0;
             for (const auto& cell : mesh.cells) {
@@ -53,12 +53,12 @@ TEST_CASE("cells fill the profile: volume, outline and sections") {
 }
 
 TEST_CASE("refined heads have more cells, a cylinder has not") {
-    const auto cells = [](ShapeKind kind, bool refined) {
-        return make_mesh(specimen::make_shape(kind), 8, refined).cells.size();
+    const auto cells = [](const Profile& profile, bool refined) {
+        return make_mesh(specimen::make_shape(profile), 8, refined).cells.size();
     };
-    for (const ShapeKind kind : {ShapeKind::reduced_head_4mm, ShapeKind::reduced_head_3mm,
-                                 ShapeKind::truncated_cone})
-        CHECK(cells(kind, true) > cells(kind, false));
-    CHECK(cells(ShapeKind::uniform_cylinder, true) ==
-          cells(ShapeKind::uniform_cylinder, false));
+    for (const Profile& profile : {specimen::reduced_head_4mm, specimen::reduced_head_3mm,
+                                   specimen::truncated_cone})
+        CHECK(cells(profile, true) > cells(profile, false));
+    CHECK(cells(specimen::uniform_cylinder, true) ==
+          cells(specimen::uniform_cylinder, false));
 }

@@ -1,3 +1,4 @@
+#include "calibrate/comparison/words.hpp"
 #include "calibrate/measurements/data_set.hpp"
 #include "calibrate/measurements/read_table.hpp"
 #include "common/errors.hpp"
@@ -52,6 +53,15 @@ TEST_CASE("a table is read as it stands", "[measurements]") {
     CHECK_THROWS_AS(make_data_set(shots, {"head_length_mm"}), InputError);
 }
 
+TEST_CASE("a specimen may have measures of its own", "[measurements]") {
+    const std::string own = "truncated_cone_2.5mm_by_9mm_of_7.6mm_by_25.4mm";
+    const std::vector<Shot> shots = read(header + replaced(row, "uniform_cylinder", own));
+    CHECK(shots.at(0).shape == own);
+    CHECK(shape_in_words(own) == "2.5-mm cone by 9 mm of 7.6 mm by 25.4 mm");
+    CHECK(shape_in_words("reduced_head_3mm") == "3-mm head");
+    CHECK(shape_in_words("uniform_cylinder") == "uniform cylinder");
+}
+
 TEST_CASE("nothing undeformed is a measurement, no length is a mistake",
           "[measurements]") {
     const std::string undeformed =
@@ -88,6 +98,11 @@ TEST_CASE("bad tables are refused with place and remedy", "[measurements]") {
         CHECK_THAT(
             complaint(header + replaced(row, "uniform_cylinder", "uniform_cilinder")),
             Contains("line 2") && Contains("Did you mean \"uniform_cylinder\"?"));
+    }
+    SECTION("shape without its measures") {
+        CHECK_THAT(
+            complaint(header + replaced(row, "uniform_cylinder", "reduced_head_5")),
+            Contains("line 2") && Contains("Did you mean \"reduced_head_"));
     }
     SECTION("unknown use") {
         CHECK_THAT(complaint(header + replaced(row, "calibrate", "fit")),

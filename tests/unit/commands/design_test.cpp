@@ -32,7 +32,7 @@ TEST_CASE("a row becomes a case in SI units", "[design]") {
     Design design = testing::small_design(2);
     design.inputs.row(1) << 123, 7.595, 4, 350, 3.5;
     const impact::ImpactCase impact_case = cases_of(through_file(design))[1];
-    CHECK(impact_case.shape.kind == specimen::ShapeKind::truncated_cone);
+    CHECK(impact_case.shape.profile == specimen::truncated_cone);
     CHECK_THAT(impact_case.shape.length(), WithinRel(4 * 7.595e-3, 1e-12));
     CHECK_THAT(impact_case.shape.rear_radius(), WithinRel(7.595e-3 / 2, 1e-12));
     CHECK(impact_case.velocity_m_s == 123);

@@ -19,8 +19,7 @@ inline impact::ImpactCase with_effect(const std::string& name, double amplitude,
 /// A short specimen in coarse cells or particles: quick, and it goes the whole way.
 inline impact::ImpactCase short_bar(impact::Geometry geometry) {
     impact::ImpactCase impact_case;
-    impact_case.shape =
-        specimen::make_shape(specimen::ShapeKind::uniform_cylinder, 8e-3, 16e-3);
+    impact_case.shape = specimen::make_shape(specimen::uniform_cylinder, 8e-3, 16e-3);
     impact_case.velocity_m_s = 90;
     impact_case.numerics = impact::numerics_for(geometry, "coarse");
     return impact_case;

@@ -53,7 +53,7 @@ TEST_CASE("the textured share has its fibres along the axis", "[effects]") {
 
 TEST_CASE("particles keep their fourfold symmetry in a texture", "[effects]") {
     const auto& changes = with_effect("rod_texture", 1).additions.orientations;
-    const auto bar = specimen::make_shape(specimen::ShapeKind::uniform_cylinder);
+    const auto bar = specimen::make_shape(specimen::uniform_cylinder);
     const auto grains = sph::random_orientations(5, sph::pack(bar, 1e-3), 1, changes);
     const auto [with_111, with_100] = fibres(grains);
     CHECK(with_111 == Approx(0.6).margin(0.04));
@@ -63,7 +63,7 @@ TEST_CASE("particles keep their fourfold symmetry in a texture", "[effects]") {
 TEST_CASE("the skin is 10^kappa denser at the surface and decays over 0.2 mm",
           "[effects]") {
     impact::ImpactCase head;
-    head.shape = specimen::make_shape(specimen::ShapeKind::reduced_head_4mm);
+    head.shape = specimen::make_shape(specimen::reduced_head_4mm);
     const auto& skin = with_effect("hard_skin", 2, head).additions.initial_density;
     REQUIRE(skin.size() == 1);
     CHECK(skin[0](4e-3, 25e-3) == Approx(100));

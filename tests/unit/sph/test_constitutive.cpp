@@ -41,8 +41,8 @@ struct Patch {
     }
 
     impact::ImpactCase impact_case = elastic_case();
-    sph::Packing packing = sph::pack(
-        specimen::make_shape(specimen::ShapeKind::uniform_cylinder, 8e-3, 8e-3), 2e-3);
+    sph::Packing packing =
+        sph::pack(specimen::make_shape(specimen::uniform_cylinder, 8e-3, 8e-3), 2e-3);
     std::unique_ptr<material::EquationOfState> equation_of_state =
         material::make_equation_of_state(impact_case.material);
     sph::Rest rest = sph::rest_state(*equation_of_state, 300);

@@ -21,7 +21,7 @@ using SiteMap = std::function<Site(const Site&)>;
 
 impact::ImpactCase small_case() {
     impact::ImpactCase impact_case;
-    impact_case.shape = specimen::make_shape(specimen::ShapeKind::reduced_head_4mm);
+    impact_case.shape = specimen::make_shape(specimen::reduced_head_4mm);
     impact_case.velocity_m_s = 90;
     impact_case.numerics.geometry = impact::Geometry::three_dimensional;
     impact_case.numerics.elements_across_radius = 4;

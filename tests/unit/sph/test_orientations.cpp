@@ -9,8 +9,7 @@ using namespace taylorcal;
 namespace {
 
 sph::Packing bar() {
-    return sph::pack(
-        specimen::make_shape(specimen::ShapeKind::uniform_cylinder, 8e-3, 40e-3), 1e-3);
+    return sph::pack(specimen::make_shape(specimen::uniform_cylinder, 8e-3, 40e-3), 1e-3);
 }
 
 }  // namespace

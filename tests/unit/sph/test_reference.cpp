@@ -11,7 +11,9 @@ namespace {
 
 sph::Packing specimen_packing(int kind) {
     return sph::pack(
-        specimen::make_shape(static_cast<specimen::ShapeKind>(kind), 8e-3, 40e-3), 1e-3);
+        specimen::make_shape(specimen::profile_named(specimen::paper_shapes().at(kind)),
+                             8e-3, 40e-3),
+        1e-3);
 }
 
 void set_linear_velocity(sph::Particles& particles, const sph::Packing& packing,

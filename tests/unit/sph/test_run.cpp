@@ -23,8 +23,7 @@ impact::ImpactCase coarse_case() {
 TEST_CASE("the 227 m/s copper bar", "[run]") {
     impact::ImpactCase impact_case = coarse_case();
     impact_case.numerics.elements_across_radius = 4;
-    impact_case.shape =
-        specimen::make_shape(specimen::ShapeKind::uniform_cylinder, 6.4e-3, 32.4e-3);
+    impact_case.shape = specimen::make_shape(specimen::uniform_cylinder, 6.4e-3, 32.4e-3);
     impact_case.velocity_m_s = 227;
     impact_case.run_until_s = 80e-6;
     impact_case.material.strength = material::StrengthModel::j2;

@@ -21,8 +21,8 @@ struct Bar {
         return packing.z[block * sph::block_size] < 10e-3;
     }
 
-    sph::Packing packing = sph::pack(
-        specimen::make_shape(specimen::ShapeKind::uniform_cylinder, 8e-3, 40e-3), 1e-3);
+    sph::Packing packing =
+        sph::pack(specimen::make_shape(specimen::uniform_cylinder, 8e-3, 40e-3), 1e-3);
     sph::Reference reference{packing, 8930, 0};
     std::vector<std::vector<std::uint32_t>> stencils = reference.stencils(packing);
     sph::Schedule schedule{packing, stencils};

@@ -37,8 +37,8 @@ struct FoldedBar {
         return sum;
     }
 
-    sph::Packing packing = sph::pack(
-        specimen::make_shape(specimen::ShapeKind::uniform_cylinder, 8e-3, 40e-3), 1e-3);
+    sph::Packing packing =
+        sph::pack(specimen::make_shape(specimen::uniform_cylinder, 8e-3, 40e-3), 1e-3);
     sph::Particles particles{packing.slots};
     sph::SelfContact contact{packing, 8930};
     sph::Schedule schedule{packing, sph::Reference(packing, 8930, 0).stencils(packing)};

@@ -11,7 +11,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 from matplotlib.colors import LogNorm  # noqa: E402
 
 from error_spreads import BOTH, MEMBERS, NEAREST, NORMAL  # noqa: E402
-from report.words import SHAPE_WORDS, SIZE_WORDS  # noqa: E402
+from report.words import SIZE_WORDS, shape_words  # noqa: E402
 
 AXES = {
     "hardening_coefficient": "hardening coefficient AI",
@@ -38,7 +38,7 @@ def draw_correlation(runs, table, path):
         for number, shape in enumerate(np.unique(runs.shapes)):
             own = runs.shapes == shape
             style = {"ms": 4, "mew": 0, "alpha": 0.6, "color": f"C{number}"}
-            axis.plot(solver[own], network[own], "o", label=SHAPE_WORDS[shape], **style)
+            axis.plot(solver[own], network[own], "o", label=shape_words(shape), **style)
         ends = [min(np.nanmin(solver), np.nanmin(network[np.isfinite(solver)]))]
         ends.append(max(np.nanmax(solver), np.nanmax(network[np.isfinite(solver)])))
         axis.plot(ends, ends, "0.3", lw=0.7, zorder=0)
@@ -101,7 +101,7 @@ def draw_spread(axis, runs, spread, factor):
     for number, shape in enumerate(np.unique(runs.shapes)):
         own = runs.shapes == shape
         points = (spread / unit)[own].ravel(), (errors / unit)[own].ravel()
-        axis.plot(*points, ".", ms=3, alpha=0.5, color=f"C{number}", label=SHAPE_WORDS[shape])
+        axis.plot(*points, ".", ms=3, alpha=0.5, color=f"C{number}", label=shape_words(shape))
     ends = np.array([np.min(spread / unit), np.max(spread / unit)])
     axis.plot(ends, ends, "0.2", lw=0.8, label="1 spread")
     axis.plot(ends, factor * ends, "0.2", lw=0.8, ls="--", label=f"{factor:.2f} spreads")

@@ -9,13 +9,13 @@ from error_spreads import HELD_OUT_UNDERSTATE, NORMAL
 from hardening_metal import HARDENING
 
 sys.path.append("workflow/scripts")
-from report.words import SHAPE_WORDS, SIZE_WORDS  # noqa: E402
+from report.words import SIZE_WORDS, shape_words  # noqa: E402
 
 
 def shape_lines(table, scale):
     """RMS (largest) by output and shape on a scale."""
     shapes = table["shape"].unique()
-    words = [SHAPE_WORDS[shape] for shape in shapes]
+    words = [shape_words(shape) for shape in shapes]
     lines = [f"{'% of ' + SCALES[scale]:22s}" + "".join(f"{word:>18s}" for word in words)]
     for output, part in table.groupby("output", sort=False):
         cells = part.set_index("shape").reindex(shapes)

@@ -15,7 +15,7 @@ from held_out_runs import among, answers, held_out_runs, part_of, standardised
 from paper_calibration import PAIRS, TRUTH, WORDS
 
 sys.path.append("workflow/scripts")
-from report.words import SHAPE_WORDS, SIZE_WORDS  # noqa: E402
+from report.words import SIZE_WORDS, shape_words  # noqa: E402
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
@@ -50,7 +50,7 @@ def error_lines(runs, errors):
     lines = [
         f"RMS error on {len(runs.shapes)} runs near the first posterior from which neither network"
         " learnt, % of the mean size there:",
-        f"{'':22s}" + "".join(f"{SHAPE_WORDS[shape]:>22s}" for shape in shapes),
+        f"{'':22s}" + "".join(f"{shape_words(shape):>22s}" for shape in shapes),
     ]
     for column, size in enumerate(runs.names):
         cells = []
@@ -88,7 +88,7 @@ def draw(runs, errors, draws, path):
         bars = np.arange(len(shapes)) + offset
         axes[0].bar(bars, values, 0.38, color=COLOURS[key], label=ROUNDS[key])
     axes[0].set_xticks(
-        np.arange(len(shapes)), [SHAPE_WORDS[shape] for shape in shapes], rotation=20
+        np.arange(len(shapes)), [shape_words(shape) for shape in shapes], rotation=20
     )
     axes[0].set_ylabel("RMS error near the posterior [%]")
     axes[0].legend(fontsize=8)

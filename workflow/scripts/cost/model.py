@@ -12,6 +12,7 @@ from pathlib import Path
 from statistics import NormalDist
 
 from input_errors import InputError
+from shape_names import paper_shape_like
 from study import better_settings, database_parts
 
 MEASURED = Path(__file__).resolve().parents[2] / "run_costs.csv"
@@ -81,6 +82,8 @@ def study_cost(study: dict) -> StudyCost:
         for run in range(runs):
             shape = part["shapes"][run % len(part["shapes"])]
             kind = (solver["geometry"], solver["fidelity"], shape)
+            if kind not in known:
+                kind = (*kind[:2], paper_shape_like(shape))
             if kind not in known:
                 raise InputError(f"{MEASURED}: has no cost of {', '.join(kind)}. Add a line.")
             used.add(kind)

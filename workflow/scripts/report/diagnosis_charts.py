@@ -4,7 +4,7 @@ from report.candidates import largest_physical, unit_words
 from report.chart import PALETTE, Cells, Chart, Line, Panel, Points, Spans
 from report.diagnosis_results import DiagnosisResults
 from report.residual_charts import FULL_COLOUR
-from report.words import SHAPE_WORDS, THIRD_WORDS, effect_words, sentence_case, size_words
+from report.words import THIRD_WORDS, effect_words, sentence_case, shape_words, size_words
 
 MOST_IN_MATRIX = 14
 CLEAR_GAIN = 3.0  # of ln Z, twenty to one
@@ -179,7 +179,7 @@ def pattern_chart(results: DiagnosisResults) -> Chart:
             texts,
             FULL_COLOUR,
         )
-        panels.append(Panel([layer], SHAPE_WORDS.get(shape, shape) if len(shapes) > 1 else ""))
+        panels.append(Panel([layer], shape_words(shape) if len(shapes) > 1 else ""))
     return Chart(
         "unexplained_pattern",
         "What is left",

@@ -8,7 +8,7 @@ from markupsafe import Markup, escape
 
 from misfit_by_size import misfit_by_size
 from report.results import Results
-from report.words import PARAMETER_SYMBOLS, SHAPE_WORDS, UNIT_WORDS
+from report.words import PARAMETER_SYMBOLS, UNIT_WORDS, shape_words
 from report.words import counted, listed, lot_words
 from report.words import number, parameter_words, percent, size_words, split_name
 
@@ -198,7 +198,7 @@ def lot_rows(results: Results) -> list[dict]:
             {
                 "lot": lot_words(lot),
                 "metal": listed(sorted({row["material"] for row in mine} - {""})),
-                "shapes": listed(list(dict.fromkeys(SHAPE_WORDS[r["shape"]] for r in mine))),
+                "shapes": listed(list(dict.fromkeys(shape_words(r["shape"]) for r in mine))),
                 "fitted": uses.count("calibrate"),
                 "held": uses.count("validate"),
                 "ignored": uses.count("ignore"),
@@ -246,7 +246,7 @@ def network_rows(results: Results) -> list[dict]:
     return [
         {
             "size": size_words(entry["output"]),
-            "shape": SHAPE_WORDS[entry["shape"]],
+            "shape": shape_words(entry["shape"]),
             "rms": percent(entry["rms_relative"], 2),
             "largest": percent(entry["largest_relative"], 1),
             "rms_mm": number(entry["rms"], 2),

@@ -6,7 +6,7 @@ from report.chart import PALETTE, Chart, Line, Panel, Points, Spans
 from report.diagnosis_results import DiagnosisResults
 from report.ladder import revision_words
 from report.residual_charts import BY_SHAPE_SIZE_THIRD
-from report.words import SHAPE_WORDS, THIRD_WORDS, size_words
+from report.words import THIRD_WORDS, shape_words, size_words
 
 USES = (("calibrate", "fitted shots", False), ("validate", "left-out shots", True))
 BEFORE, AFTER, SOLVER = "#8a929b", PALETTE[0], PALETTE[1]
@@ -116,7 +116,7 @@ def shape_chart(results: DiagnosisResults) -> Chart:
         panels.append(
             Panel(
                 layers,
-                SHAPE_WORDS.get(shape, shape),
+                shape_words(shape),
                 "velocity",
                 "misfit, standard errors",
                 x_ticks=["slow", "middle", "fast"],
@@ -197,7 +197,7 @@ def _size_panel(first: dict, last: dict, shape: str, size: str, several: bool) -
         y = [100 * cell["mean_relative"] for cell in found if cell]
         layers.append(Line(x, y, colour, dashed=words == "before"))
         layers.append(Points(x, y, colour, legend=words))
-    title = f"{SHAPE_WORDS.get(shape, shape)}, {size_words(size)}" if several else size_words(size)
+    title = f"{shape_words(shape)}, {size_words(size)}" if several else size_words(size)
     return Panel(layers, title, "velocity", "deviation, %", x_ticks=["slow", "middle", "fast"])
 
 

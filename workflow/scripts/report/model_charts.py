@@ -4,7 +4,7 @@ from misfit_by_size import size_before_impact
 from report.chart import PALETTE, Band, Chart, Intervals, Line, Panel, Points
 from report.chart import ordered_colour
 from report.results import Results
-from report.words import SHAPE_WORDS, USE_WORDS, lot_words, sentence_case, size_words
+from report.words import USE_WORDS, lot_words, sentence_case, shape_words, size_words
 from study import is_radial
 
 USE_SYMBOL = {"calibrate": {}, "validate": {"hollow": True}, "ignore": {"symbol": "cross"}}
@@ -45,7 +45,7 @@ def grouping(results: Results):
     """What tells the shots apart, lots or shapes, and how its values are written."""
     if len(results.lots) > 1:
         return "lot", lot_words
-    return "shape", SHAPE_WORDS.get
+    return "shape", shape_words
 
 
 def _shot_label(row: dict) -> str:
@@ -86,9 +86,9 @@ def _velocity_chart(results: Results, size: str, rows: dict, ratios: list[float]
         for ratio in ratios:
             mine = [entry for entry in entries if _ratio(rows[entry[0]["id"]]) == ratio]
             layers += _shot_layers(mine, rows, size, ratio, ratios, with_curve)
-        title = lot_words(lot) if len(results.lots) > 1 else SHAPE_WORDS[shape]
+        title = lot_words(lot) if len(results.lots) > 1 else shape_words(shape)
         if len(results.lots) > 1 and len({key[1] for key in panels if key[0] == lot}) > 1:
-            title += f", {SHAPE_WORDS[shape]}"
+            title += f", {shape_words(shape)}"
         shown.append(Panel(layers, title, "velocity, m/s", f"{size_words(size)} / {over}"))
     return Chart(
         f"against_velocity_{size}",

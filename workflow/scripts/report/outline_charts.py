@@ -6,7 +6,7 @@ from outlines.basis import OutlineBasis
 from outlines.measured import read_outline
 from report.chart import ACCENT, Band, Chart, Line, Panel, Points
 from report.results import Results
-from report.words import SHAPE_WORDS, listed
+from report.words import listed, shape_words
 from study import OUTLINE_SCORES
 
 NORMAL_95 = 1.96
@@ -106,7 +106,7 @@ def _component_chart(basis: OutlineBasis, shape: str) -> Chart:
         panels.append(Panel(layers, title, "height / final length", "radius / initial radius"))
     return Chart(
         f"outline_components_{shape}",
-        f"Components of the outline, {SHAPE_WORDS[shape]}",
+        f"Components of the outline, {shape_words(shape)}",
         f"What the scores outline_pc_1 to {len(panels)} stand for: principal components of "
         f"{of_shape.runs} computed outlines, heights weighed by the length that they stand for; in "
         "brackets the share of the variance.",

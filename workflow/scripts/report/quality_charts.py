@@ -4,7 +4,7 @@ import numpy as np
 
 from report.chart import PALETTE, Bars, Chart, Histogram, Line, Panel, Points
 from report.results import Results
-from report.words import SHAPE_WORDS, duration, size_words
+from report.words import duration, shape_words, size_words
 
 STAGE_WORDS = {
     "design": "design",
@@ -32,7 +32,7 @@ def network_chart(results: Results) -> Chart:
             mine = [p for p in pairs if p["output"] == output and p["shape"] == shape]
             solver = [pair["solver"] for pair in mine]
             error = [pair["network"] - pair["solver"] for pair in mine]
-            words = SHAPE_WORDS.get(shape, shape) if len(shapes) > 1 else ""
+            words = shape_words(shape) if len(shapes) > 1 else ""
             layers.append(Points(solver, error, PALETTE[index], size=4.5, legend=words))
         spread = [value for layer in layers for value in layer.x]
         if not spread:

@@ -5,7 +5,7 @@ from statistics import NormalDist, mean
 from report.chart import PALETTE, Band, Cells, Chart, Line, Panel, Points
 from report.model_charts import USE_SYMBOL, grouping
 from report.results import Results
-from report.words import SHAPE_WORDS, THIRD_WORDS, USE_WORDS, lot_words
+from report.words import THIRD_WORDS, USE_WORDS, lot_words, shape_words
 from report.words import signed_percent, size_words
 from study import OUTLINE_SCORES
 
@@ -34,7 +34,7 @@ def heat_map(groups: list[dict]) -> Chart:
             [size_words(size) for size in sizes],
             [words[third] for third in thirds],
             [[found.get((shape, size, third)) for third in thirds] for size in sizes],
-            SHAPE_WORDS.get(shape, shape) if len(shapes) > 1 else "",
+            shape_words(shape) if len(shapes) > 1 else "",
             several=len(shapes) > 1,
         )
         for shape in shapes

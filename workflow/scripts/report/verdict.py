@@ -2,7 +2,7 @@
 
 from report.candidates import unseen_rows
 from report.diagnosis_results import DiagnosisResults
-from report.words import SHAPE_WORDS, effect_words, listed, parameter_words
+from report.words import effect_words, listed, parameter_words, shape_words
 from report.words import probability, sentence_case, signed, size_words
 
 DESCRIPTOR_WORDS = {
@@ -94,7 +94,7 @@ def test_rows(adequacy: dict, scores: list[float]) -> list[dict]:
 
 
 def _contrast(entry: dict) -> str:
-    return f"{SHAPE_WORDS.get(entry['shape'], entry['shape'])}, {size_words(entry['size'])}"
+    return f"{shape_words(entry['shape'])}, {size_words(entry['size'])}"
 
 
 def battery_rows(adequacy: dict) -> list[dict]:
@@ -122,7 +122,7 @@ def drift_rows(adequacy: dict) -> list[dict]:
     return [
         {
             "parameter": sentence_case(parameter_words(entry["parameter"])),
-            "shape": SHAPE_WORDS.get(entry["shape"], entry["shape"]),
+            "shape": shape_words(entry["shape"]),
             "shift": signed(entry["shift_sd"]),
         }
         for entry in drift[:MOST_ROWS]

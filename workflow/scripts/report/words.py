@@ -5,6 +5,7 @@ import re
 
 from markupsafe import Markup, escape
 
+from shape_names import in_words
 from study import OUTLINE_SCORES
 
 SIZE_WORDS = {
@@ -16,13 +17,6 @@ SIZE_WORDS = {
     "undeformed_length_mm": "undeformed length",
     "diameter_at_0p2L0_mm": "diameter at 0.2 L0",
     **{name: f"outline, component {name[-1]}" for name in OUTLINE_SCORES},
-}
-SHAPE_WORDS = {
-    "all": "all shapes",
-    "uniform_cylinder": "uniform cylinder",
-    "reduced_head_4mm": "4-mm head",
-    "reduced_head_3mm": "3-mm head",
-    "truncated_cone": "truncated cone",
 }
 PARAMETER_WORDS = {
     "rho_immobile_initial": "initial immobilized density",
@@ -78,6 +72,10 @@ UNIT_WORDS = {
 }
 USE_WORDS = {"calibrate": "fitted", "validate": "held back", "ignore": "left out"}
 THIRD_WORDS = {"low": "slow third", "middle": "middle third", "high": "fast third"}
+
+
+def shape_words(shape: str) -> str:
+    return "all shapes" if shape == "all" else in_words(shape)
 
 
 def split_name(name: str) -> tuple[str, str]:

@@ -1,0 +1,90 @@
+#include "common/errors.hpp"
+#include "common/json_reader.hpp"
+#include "solver/specimen/shape.hpp"
+
+#include <map>
+#include <optional>
+#include <regex>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace taylorcal::specimen {
+namespace {
+
+// What names leave out: the paper's specimen and its heads [mm].
+constexpr double usual_diameter = 8, usual_length = 40;
+constexpr double usual_cone = 20, usual_head = 10;
+// Ends and heads beyond these leave cells too thin or too few to compute with.
+constexpr double narrowest_end = 0.15, widest_end = 0.9;
+constexpr double shortest_head = 0.05, longest_head = 0.8;
+
+const std::map<std::string, Profile>& paper_profiles() {
+    static const std::map<std::string, Profile> profiles = {
+        {"uniform_cylinder", uniform_cylinder},
+        {"reduced_head_4mm", reduced_head_4mm},
+        {"reduced_head_3mm", reduced_head_3mm},
+        {"truncated_cone", truncated_cone}};
+    return profiles;
+}
+
+void require_share(const std::string& name, const char* what, double share, double lowest,
+                   double highest) {
+    require(
+        share >= lowest && share <= highest,
+        fmt::format("shape \"{}\": {} is {:.3g} of the specimen's (expected {} to {}). "
+                    "Check the measures in the name.",
+                    name, what, share, lowest, highest));
+}
+
+/// Of a name with measures in it; nothing when it has none.
+std::optional<Profile> measured_profile(const std::string& name) {
+    static const std::string mm = "_([0-9]+(?:[.][0-9]+)?)mm";
+    static const std::regex pattern("(reduced_head|truncated_cone)" + mm + "(?:_by" + mm +
+                                    ")?(?:_of" + mm + "_by" + mm + ")?");
+    std::smatch parts;
+    if (!std::regex_match(name, parts, pattern)) return std::nullopt;
+    const auto measure = [&](std::size_t part, double usual) {
+        return parts[part].matched ? std::stod(parts[part]) : usual;
+    };
+    const bool cone = parts[1] == "truncated_cone";
+    const double diameter = measure(4, usual_diameter), length = measure(5, usual_length);
+    require(diameter > 0 && length > 0,
+            fmt::format("shape \"{}\": a specimen of {} mm x {} mm (expected measures "
+                        "above 0).",
+                        name, diameter, length));
+    const double end = std::stod(parts[2]) / diameter;
+    const double head = measure(3, cone ? usual_cone : usual_head) / length;
+    require_share(name, "the end's diameter", end, narrowest_end, widest_end);
+    require_share(name, "the head's length", head, shortest_head, longest_head);
+    return Profile{cone ? ProfileKind::tapered : ProfileKind::stepped, end, head};
+}
+
+}  // namespace
+
+const std::vector<std::string>& paper_shapes() {
+    static const std::vector<std::string> names = {"uniform_cylinder", "reduced_head_4mm",
+                                                   "reduced_head_3mm", "truncated_cone"};
+    return names;
+}
+
+std::string full_name(const std::string& name) {
+    if (name == "cylinder") return "uniform_cylinder";
+    return name == "cone" ? "truncated_cone" : name;
+}
+
+Profile profile_named(const std::string& name) {
+    const auto known = paper_profiles().find(full_name(name));
+    if (known != paper_profiles().end()) return known->second;
+    if (const std::optional<Profile> measured = measured_profile(name)) return *measured;
+    std::vector<std::string> understood = {"cylinder", "cone"};
+    understood.insert(understood.end(), paper_shapes().begin(), paper_shapes().end());
+    const std::string near = nearest_word(name, understood);
+    throw InputError(fmt::format(
+        "shape \"{}\" is unknown{}. Use one of: {}, or measures of your own, as in "
+        "reduced_head_5mm_by_12mm or truncated_cone_3mm_of_7.6mm_by_25.4mm.",
+        name, near.empty() ? "" : " (did you mean \"" + near + "\"?)",
+        fmt::join(paper_shapes(), ", ")));
+}
+
+}  // namespace taylorcal::specimen

@@ -22,7 +22,7 @@ from network import Network
 from refit import read_table
 from specimens import TRUTHS
 
-POINTS_A_SHAPE = 9
+POINTS_A_SHAPE = 18
 SEED = 77
 # Amplitudes of the pairs: this many standard errors of measurements and network, as far as
 # the range allows. What is hidden lies below; far beyond it sizes bend.

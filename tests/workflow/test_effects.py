@@ -33,7 +33,7 @@ def refusal(tmp_path, lines: str) -> str:
         ("effects: [oblique_impact]", ["geometry axisymmetric does not", "geometry: 3d"]),
         ("diagnosis: { candidates: [frost] }", ["line 8: diagnosis.candidates has 'frost'"]),
         ("diagnosis: { candidates: some }", ["diagnosis.candidates = 'some'"]),
-        ("diagnosis: { points_per_shape: 1 }", ["points_per_shape = 1", "at least 3 shots"]),
+        ("diagnosis: { points_per_shape: 1 }", ["points_per_shape = 1", "at least 4 shots"]),
     ],
 )
 def test_wrong_effects_are_refused(tmp_path, lines, expected):

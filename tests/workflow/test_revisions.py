@@ -18,7 +18,7 @@ from study import load_study
 EFFECT = "initial_yield_stress"
 LISTED = effect(EFFECT, highest=1e8, prior={"kind": "half_normal", "scale": 3e7}, typical=2e7)
 HOME = f"revisions/{EFFECT}"
-DIAGNOSIS = "\ndiagnosis: { points_per_shape: 3, constants: [drag_slope] }\n"
+DIAGNOSIS = "\ndiagnosis: { points_per_shape: 4, constants: [drag_slope] }\n"
 
 
 def put_solver(workspace: Workspace, real: Path) -> None:

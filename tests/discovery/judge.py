@@ -14,6 +14,7 @@ from intervals import clopper_pearson
 
 VISIBLE = 6.0  # standard errors of a hidden effect's signal
 HIDDEN_BY_PARAMETERS = 0.1  # identifiability below which an effect is confounded
+GRAINS_OF_FINER_RUNS = 16  # a cell: fewer scatter more than the diagnosis counts
 TWIN = 0.9  # likeness from which two candidates cannot be told apart
 ABSTAINING = {"no effect supported", "one of", "not distinguishable"}
 
@@ -231,8 +232,18 @@ def _hits_set(case: Case) -> bool:
     return bool(set(case.hidden) & case.named)
 
 
+def _grains(case: Case) -> int:
+    return case.truth["numerics"]["grains_per_point"]
+
+
 QUESTIONS = [
     Question("false flags on tables with nothing hidden", _is("null"), _flagged, at_most=0.05),
+    Question(
+        "false flags, tables of cells with sixteen grains",
+        lambda case: case.kind == "null" and _grains(case) >= GRAINS_OF_FINER_RUNS,
+        _flagged,
+        at_most=0.05,
+    ),
     Question("an effect of 6 standard errors or more is flagged", _visible_effect, _flagged, 0.85),
     Question(
         "flagged: the hidden effect is in the set",

@@ -45,6 +45,7 @@ def truth(kind="null", effects=None, signal=0.0, **more):
         "identifiability": {name: 0.6 for name in effects},
         "most_alike": {name: ["back_stress", 0.3] for name in effects},
         "parameters": {"hardening_coefficient": 3.0},
+        "numerics": {"elements_across_radius": 6, "grains_per_point": 16},
         "corrupted": None,
         **more,
     }
@@ -85,6 +86,14 @@ def test_false_flags_are_counted_on_nulls_alone():
     answer = score_of(cases, "false flags")
     assert (answer.hits, answer.trials, answer.verdict) == (1, 2, "missed")
     assert answer.misses == ["b"]
+
+
+def test_false_flags_of_metals_with_many_grains_are_counted_by_themselves():
+    few = truth(numerics={"elements_across_radius": 7, "grains_per_point": 4})
+    answer = score_of(
+        [Case("a", truth(), diagnosis()), Case("b", few, RIGHT)], "false flags, tables"
+    )
+    assert (answer.hits, answer.trials, answer.verdict) == (0, 1, "met")
 
 
 def test_only_visible_effects_must_be_flagged():

@@ -93,6 +93,38 @@ void find_set(const DiagnosisProblem& problem, const NormalTable& table,
     }
 }
 
+std::vector<const PairRecord*> explaining_pairs(const ModeDiagnosis& mode) {
+    std::vector<const PairRecord*> found;
+    for (const PairRecord& pair : mode.pairs)
+        if (pair.explains && pair.log_gain > 0 &&
+            (found.empty() ||
+             pair.log_gain > found.front()->log_gain - indistinguishable))
+            found.push_back(&pair);
+    return found;
+}
+
+std::vector<std::size_t> enough_alone(const ModeDiagnosis& mode,
+                                      const std::vector<const PairRecord*>& pairs) {
+    if (pairs.size() < 2) return {};
+    for (const std::size_t k : pairs.front()->effects) {
+        const CandidateRecord& record = mode.candidates[k];
+        const bool is_shared = std::ranges::all_of(pairs, [&](const PairRecord* pair) {
+            return std::ranges::count(pair->effects, k) > 0;
+        });
+        if (!is_shared || !record.evidence || !record.has_physical_sign ||
+            record.evidence->log_gain <= pairs.front()->log_gain - worth_a_second)
+            continue;
+        std::vector<std::size_t> found = {k};
+        for (std::size_t other = 0; other < mode.candidates.size(); ++other)
+            if (other != k && mode.candidates[other].evidence &&
+                std::abs(mode.cosine(static_cast<Eigen::Index>(k),
+                                     static_cast<Eigen::Index>(other))) > alike)
+                found.push_back(other);
+        return found;
+    }
+    return {};
+}
+
 void weigh_pairs(const DiagnosisProblem& problem, const NormalTable& table,
                  ModeDiagnosis& mode) {
     constexpr std::size_t most_refitted = 8;

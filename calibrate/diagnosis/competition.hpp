@@ -21,6 +21,18 @@ void find_set(const DiagnosisProblem& problem, const NormalTable& table,
 void weigh_pairs(const DiagnosisProblem& problem, const NormalTable& table,
                  ModeDiagnosis& mode);
 
+/// ln Z by which two effects must beat the best one: two at once are rarer.
+inline constexpr double worth_a_second = 5;
+
+/// Pairs that explain, within reach of the best of them, which comes first.
+std::vector<const PairRecord*> explaining_pairs(const ModeDiagnosis& mode);
+
+/// Where several pairs explain and no candidate alone does: the one that all of them
+/// share, with what looks like it, if a second adds too little to its ln Z to be worth
+/// naming. Else nothing.
+std::vector<std::size_t> enough_alone(const ModeDiagnosis& mode,
+                                      const std::vector<const PairRecord*>& pairs);
+
 /// ln Z gained by the rival of all candidates: sizes that are off by a mean and a slope
 /// in velocity of their own for every shape, whatever the cause.
 double unlisted_gain(const DiagnosisProblem& problem, const ModeDiagnosis& mode);

@@ -9,9 +9,6 @@ namespace {
 
 constexpr double power = 0.9;
 constexpr std::size_t most_that_say_something = 5;
-/// ln Z by which two effects must beat the best one: two at once are rarer.
-constexpr double worth_a_second = 5;
-
 void screen_candidates(const DiagnosisProblem& problem, ModeDiagnosis& mode) {
     const auto count = static_cast<Eigen::Index>(problem.candidates.size());
     Eigen::MatrixXd directions(mode.adequacy.n, count);
@@ -62,17 +59,6 @@ std::vector<std::size_t> members_of_set(const ModeDiagnosis& mode) {
     return members;
 }
 
-/// Pairs that explain, within reach of the best of them, which comes first.
-std::vector<const PairRecord*> explaining_pairs(const ModeDiagnosis& mode) {
-    std::vector<const PairRecord*> found;
-    for (const PairRecord& pair : mode.pairs)
-        if (pair.explains && pair.log_gain > 0 &&
-            (found.empty() ||
-             pair.log_gain > found.front()->log_gain - indistinguishable))
-            found.push_back(&pair);
-    return found;
-}
-
 void name_pairs(Verdict& verdict, const std::vector<const PairRecord*>& pairs) {
     verdict.effects.clear();
     for (const PairRecord* pair : pairs)
@@ -101,6 +87,7 @@ void judge(const DiagnosisProblem& problem, const NormalTable& table,
     weigh_pairs(problem, table, mode);
     verdict.effects = members_of_set(mode);
     const std::vector<const PairRecord*> pairs = explaining_pairs(mode);
+    if (verdict.effects.empty()) verdict.effects = enough_alone(mode, pairs);
     double best = 0;  // ln Z of what the list can say
     for (const std::size_t k : verdict.effects)
         best = std::max(best, mode.candidates[k].evidence->log_gain);

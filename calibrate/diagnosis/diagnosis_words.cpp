@@ -154,7 +154,11 @@ std::string finding_words(const DiagnosisProblem& problem, const Diagnosis& diag
                     "Two causes together would explain it, one alone does "
                     "not: {}. {}",
                     fmt::join(effects, " and "), mixed);
-            return fmt::format("It would be explained by {}. ", effects.front());
+            return fmt::format(
+                "It would be explained by {}{}. ", effects.front(),
+                mode.candidates[verdict.effects.front()].explains
+                    ? ""
+                    : ", but for a rest that no second cause explains clearly better");
         case VerdictKind::one_of:
             return fmt::format(
                 "These shots do not tell which of these explains it: {}. {}",

@@ -232,9 +232,9 @@ def test_signatures_are_pairs_at_two_fidelities(again):
     with h5py.File(again.results / "signatures.h5") as file:
         inputs, sizes = file["inputs"][:], file["outputs"][:, 0]
         assert list(file["inputs"].attrs["names"])[-2:] == [EFFECT, "drag_slope"]
-        assert len(inputs) == 9 and (file["status"][:] == 0).all()
+        assert len(inputs) == 12 and (file["status"][:] == 0).all()
     with h5py.File(again.results / "signatures_finer.h5") as file:
-        assert list(file["run_id"][:]) == [0, 3, 6]
+        assert list(file["run_id"][:]) == [0, 3, 6, 9]
         assert json.loads(file.attrs["configuration"])["fidelity"] == "standard"
         finer = file["outputs"][:, 0]
     assert (inputs[::3, -1] == 2.5e-8).all()

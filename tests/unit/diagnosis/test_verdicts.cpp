@@ -151,6 +151,25 @@ TEST_CASE("two effects at once are found as a pair", "[verdict]") {
     CHECK(right >= 0.7 * tables);
 }
 
+TEST_CASE("a second effect is not named where it adds little", "[verdict]") {
+    const toys::LinearTable table;
+    const Eigen::VectorXd g = table.effects.col(0);
+    ModeDiagnosis mode = table.diagnose(table.draw(7, table.amplitude_of(g, 9) * g));
+    const double alone = mode.candidates[0].evidence->log_gain;
+    REQUIRE(mode.candidates[0].has_physical_sign);
+    const auto enough = [&](std::vector<PairRecord> pairs) {
+        mode.pairs = std::move(pairs);
+        return enough_alone(mode, explaining_pairs(mode));
+    };
+    // All pairs share one that does almost as much alone.
+    CHECK(enough({{{0, 5}, alone + 2, true}, {{2, 0}, alone + 1, true}}) ==
+          std::vector<std::size_t>{0});
+    // The partners do much, or none is shared, or there is one pair only.
+    CHECK(enough({{{0, 5}, alone + 7, true}, {{2, 0}, alone + 6, true}}).empty());
+    CHECK(enough({{{0, 5}, alone + 2, true}, {{2, 4}, alone + 1, true}}).empty());
+    CHECK(enough({{{0, 5}, alone + 2, true}}).empty());
+}
+
 TEST_CASE("nothing is named that the evidence does not tell from nothing", "[verdict]") {
     const toys::LinearTable table;
     int named = 0;

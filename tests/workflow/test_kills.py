@@ -12,7 +12,7 @@ from stage_commands import QUICK_RUNS, Stage, ended, random_moments, stages
 KILLS = 20
 STAGES = ["runs", "merge", "train", "sample", "compare"]
 THREADS = 2
-LONG_DRAWS = 900_000
+LONG_DRAWS = 2_400_000
 
 
 def undisturbed(stage: Stage) -> tuple[bytes, float]:

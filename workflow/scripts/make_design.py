@@ -1,5 +1,6 @@
 """Writes design.h5: the runs of the database, spread evenly over the study's ranges."""
 
+import math
 import os
 from pathlib import Path
 
@@ -33,7 +34,9 @@ def design(settings: dict) -> dict:
     for index, (_, lower, upper, spacing) in enumerate(axes):
         share = points[:, varying.index(index)] if index in varying else np.zeros(runs)
         if spacing == "logarithmic":
-            values = lower * (upper / lower) ** share
+            # One by one: on some processors numpy's own powers differ in the last bit by
+            # where in memory the shares lie.
+            values = lower * np.array([math.pow(upper / lower, part) for part in share])
         elif spacing == "square_root":
             values = (lower**0.5 + (upper**0.5 - lower**0.5) * share) ** 2
         else:

@@ -2,7 +2,6 @@
 #include "common/json_reader.hpp"
 #include "solver/specimen/shape.hpp"
 
-#include <map>
 #include <optional>
 #include <regex>
 
@@ -19,15 +18,6 @@ constexpr double usual_cone = 20, usual_head = 10;
 constexpr double narrowest_end = 0.15, widest_end = 0.9;
 constexpr double shortest_head = 0.05, longest_head = 0.8;
 
-const std::map<std::string, Profile>& paper_profiles() {
-    static const std::map<std::string, Profile> profiles = {
-        {"uniform_cylinder", uniform_cylinder},
-        {"reduced_head_4mm", reduced_head_4mm},
-        {"reduced_head_3mm", reduced_head_3mm},
-        {"truncated_cone", truncated_cone}};
-    return profiles;
-}
-
 void require_share(const std::string& name, const char* what, double share, double lowest,
                    double highest) {
     require(
@@ -37,7 +27,7 @@ void require_share(const std::string& name, const char* what, double share, doub
                     name, what, share, lowest, highest));
 }
 
-/// Of a name with measures in it; nothing when it has none.
+/// Of a name with measures in it, as the paper's heads have; nothing when it has none.
 std::optional<Profile> measured_profile(const std::string& name) {
     static const std::string mm = "_([0-9]+(?:[.][0-9]+)?)mm";
     static const std::regex pattern("(reduced_head|truncated_cone)" + mm + "(?:_by" + mm +
@@ -74,8 +64,9 @@ std::string full_name(const std::string& name) {
 }
 
 Profile profile_named(const std::string& name) {
-    const auto known = paper_profiles().find(full_name(name));
-    if (known != paper_profiles().end()) return known->second;
+    const std::string full = full_name(name);
+    if (full == "uniform_cylinder") return uniform_cylinder;
+    if (full == "truncated_cone") return truncated_cone;
     if (const std::optional<Profile> measured = measured_profile(name)) return *measured;
     std::vector<std::string> understood = {"cylinder", "cone"};
     understood.insert(understood.end(), paper_shapes().begin(), paper_shapes().end());

@@ -1,5 +1,7 @@
 """Specimens with measures of one's own: their names in studies, tables, estimates and words."""
 
+import re
+
 import pytest
 from tiny_study import STUDY_YAML, TABLE, write_study
 
@@ -7,7 +9,8 @@ from cost.model import run_costs, study_cost
 from input_errors import InputError
 from measurements import check_against_study, read_measurements
 from report.words import shape_words
-from shape_names import PAPER_SHAPES, paper_shape_like
+from schema_check import load_schema
+from shape_names import MEASURED, PAPER_SHAPES, paper_shape_like
 from study import read_study
 
 CONE = "truncated_cone_2.5mm_by_9mm_of_7.6mm_by_25.4mm"
@@ -26,6 +29,17 @@ CONE = "truncated_cone_2.5mm_by_9mm_of_7.6mm_by_25.4mm"
 )
 def test_a_reader_sees_the_measures(shape, words):
     assert shape_words(shape) == words
+
+
+def test_both_schemas_and_the_scripts_take_the_same_names():
+    patterns = [
+        load_schema("measurements")["properties"]["shape"]["pattern"],
+        load_schema("study")["$defs"]["shapes"]["items"]["pattern"],
+    ]
+    assert patterns[0] == patterns[1]
+    for shape in [*PAPER_SHAPES, CONE, "reduced_head_5mm_of_9mm_by_30mm", "cone", "reduced_head_5"]:
+        is_known = shape in PAPER_SHAPES or bool(MEASURED.fullmatch(shape))
+        assert bool(re.search(patterns[0], shape)) == is_known
 
 
 def of_own_shape(tmp_path, shape: str):

@@ -62,7 +62,9 @@ class DiagnosedStudy {
         }
     }
     DiagnosisProblem problem() const {
-        return study_.problem_at(result.modes.front().base.unit);
+        DiagnosisProblem problem = study_.problem_at(result.modes.front().base.unit);
+        count_scatter(result.scatter, problem);
+        return problem;
     }
     const DiagnosisStudy& study() const { return study_; }
     nlohmann::json provenance_of_inputs() const {

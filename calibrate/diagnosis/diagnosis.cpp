@@ -40,6 +40,14 @@ std::vector<Peak> find_peaks(const DiagnosisProblem& problem, const RowMatrix& s
     return peaks;
 }
 
+/// Scatter about the best fit near `start`, under the errors that are stated.
+std::vector<UnstatedScatter> scatter_at(const DiagnosisProblem& problem,
+                                        const Eigen::VectorXd& start) {
+    const Whitening whiten(problem.covariance);
+    const Refit fit = refit(problem, whiten, {}, start, Eigen::VectorXd());
+    return unstated_scatter(problem, whiten.colour(fit.residual).col(0));
+}
+
 bool names_effects(VerdictKind kind) {
     return kind == VerdictKind::effect || kind == VerdictKind::one_of;
 }
@@ -79,12 +87,16 @@ void ask_second_network(Diagnosis& diagnosis, const Verdict& second) {
 }
 
 Diagnosis diagnose(const ProblemAt& problem_at, const RowMatrix& starts) {
-    const DiagnosisProblem first = problem_at(starts.row(0).transpose());
-    const NormalTable table(first.seed, most_statistics(first));
     Diagnosis diagnosis;
-    for (const Peak& peak : find_peaks(first, starts))
-        diagnosis.modes.push_back(
-            diagnose_mode(problem_at(peak.fit.unit), peak.fit.unit, table));
+    DiagnosisProblem first = problem_at(starts.row(0).transpose());
+    diagnosis.scatter = scatter_at(first, starts.row(0).transpose());
+    count_scatter(diagnosis.scatter, first);
+    const NormalTable table(first.seed, most_statistics(first));
+    for (const Peak& peak : find_peaks(first, starts)) {
+        DiagnosisProblem problem = problem_at(peak.fit.unit);
+        count_scatter(diagnosis.scatter, problem);
+        diagnosis.modes.push_back(diagnose_mode(problem, peak.fit.unit, table));
+    }
     const auto higher = [](const auto& a, const auto& b) {
         return a.log_height > b.log_height;
     };

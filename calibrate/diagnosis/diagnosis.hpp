@@ -1,6 +1,7 @@
 #pragma once
 
 #include "calibrate/diagnosis/mode_diagnosis.hpp"
+#include "calibrate/diagnosis/unstated_scatter.hpp"
 
 #include <functional>
 #include <string>
@@ -14,13 +15,15 @@ struct Diagnosis {
     Verdict verdict;                   ///< worst case over modes and networks
     std::vector<Verdict>
         by_network;  ///< where several were asked: that of the modes first
+    std::vector<UnstatedScatter> scatter;  ///< counted among the errors
 };
 
 /// The problem seen from one point of the parameters: errors depend on it.
 using ProblemAt = std::function<DiagnosisProblem(const Eigen::VectorXd& unit)>;
 
 /// Fits from every start (a row; points of the unit cube), keeps the fits that predict
-/// differently and have at least 5 % of the evidence, and diagnoses at each.
+/// differently and have at least 5 % of the evidence, and diagnoses at each. Scatter that
+/// the errors do not state is found at the first start and counted everywhere.
 Diagnosis diagnose(const ProblemAt& problem_at, const RowMatrix& starts);
 
 /// Of the verdicts at several modes, or with several networks: no effect is supported if

@@ -138,6 +138,16 @@ json bad_data_json(const DiagnosisProblem& problem, const ModeDiagnosis& mode) {
     return list;
 }
 
+json scatter_json(const std::vector<UnstatedScatter>& scatters) {
+    json list = json::array();
+    for (const UnstatedScatter& scatter : scatters)
+        list.push_back({{"shape", scatter.shape},
+                        {"size", scatter.size},
+                        {"percent", 100 * scatter.relative_sd},
+                        {"stated_percent", 100 * scatter.stated_sd}});
+    return list;
+}
+
 json residuals_json(const DiagnosisProblem& problem, const ModeDiagnosis& mode) {
     std::vector<double> z_shot(problem.shots.size(), 0);
     for (const Suspect& suspect : mode.suspects)
@@ -218,7 +228,9 @@ json to_json(const DiagnosisProblem& problem, const Diagnosis& diagnosis,
             {"modes", modes},
             {"signatures",
              {{"points", facts.signature_points}, {"residual_sd", residual_sd}}},
-            {"errors", {{"words", facts.errors_in_words}}},
+            {"errors",
+             {{"words", facts.errors_in_words},
+              {"unstated_scatter", scatter_json(diagnosis.scatter)}}},
             {"next_experiments", to_json(facts.next_experiments)},
             {"residuals", residuals_json(problem, mode)}};
 }

@@ -122,7 +122,12 @@ DiagnosisProblem DiagnosisStudy::problem_at(const Eigen::VectorXd& unit) const {
                  datum.scale_mm(at)});
         }
         problem.shots.push_back(
-            {datum.shot.id, datum.shot.shape, datum.shot.lot, datum.shot.velocity_m_s});
+            {datum.shot.id,
+             datum.shot.shape,
+             datum.shot.lot,
+             datum.shot.velocity_m_s,
+             {datum.shot.length_to_diameter(), datum.shot.initial_diameter_mm,
+              datum.shot.initial_temperature_K}});
     }
     problem.parameters = inputs_.space.names();
     problem.candidates = inputs_.candidates;

@@ -129,6 +129,24 @@ std::string wild_words(const DiagnosisProblem& problem, const Diagnosis& diagnos
                        fmt::join(wild, ", "));
 }
 
+/// Sizes that scatter from shot to shot much more than their errors say.
+std::string scatter_words(const Diagnosis& diagnosis) {
+    std::vector<std::string> sizes;
+    for (const UnstatedScatter& scatter : diagnosis.scatter)
+        if (scatter.relative_sd > scatter.stated_sd)
+            sizes.push_back(
+                fmt::format("{} of shape {} by {:.1f} % beyond the {:.1f} %",
+                            size_in_words(scatter.size), in_words(scatter.shape),
+                            100 * scatter.relative_sd, 100 * scatter.stated_sd));
+    if (sizes.empty()) return "";
+    return fmt::format(
+        "From shot to shot, without a trend, sizes scatter more than their errors say: "
+        "{}. "
+        "That is counted as an error and not as missing physics; see whether the stated "
+        "errors are too small. ",
+        fmt::join(sizes, ", "));
+}
+
 std::string finding_words(const DiagnosisProblem& problem, const Diagnosis& diagnosis) {
     const Verdict& verdict = diagnosis.verdict;
     const ModeDiagnosis& mode = diagnosis.modes.front();
@@ -252,7 +270,8 @@ std::string verdict_words(const DiagnosisProblem& problem, const Diagnosis& diag
         adequacy_words(diagnosis.modes.front().adequacy, diagnosis.verdict.is_flagged,
                        Adequacy::level_of_test(problem.alpha)) +
         finding_words(problem, diagnosis) + network_words(problem, diagnosis) +
-        wild_words(problem, diagnosis) + blind_words(problem, diagnosis);
+        wild_words(problem, diagnosis) + scatter_words(diagnosis) +
+        blind_words(problem, diagnosis);
     while (!words.empty() && words.back() == ' ') words.pop_back();
     return words;
 }

@@ -24,6 +24,8 @@ struct ShotLabel {
     std::string shape;
     std::string lot;
     double velocity_m_s = 0;
+    /// Length/diameter, diameter [mm] and temperature [K].
+    Eigen::Vector3d other_inputs = Eigen::Vector3d::Zero();
 };
 
 /// Where a candidate's signature rests on paired runs; beyond, nothing is known of it.

@@ -1,0 +1,178 @@
+#include "calibrate/diagnosis/unstated_scatter.hpp"
+
+#include "calibrate/diagnosis/contrasts.hpp"
+#include "calibrate/diagnosis/tail_probability.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <boost/math/tools/minima.hpp>
+
+namespace taylorcal::calibrate {
+namespace {
+
+constexpr Eigen::Index fewest_numbers = 6;
+constexpr Eigen::Index fewest_rough = 3;  // directions
+constexpr double widest = 0.3;            // of the size
+constexpr double narrowest = 1e-4;        // of the size; less is none
+constexpr int bits = 20;                  // of the search for the likeliest scatter
+
+using Numbers = std::vector<Eigen::Index>;
+
+/// What a smooth misfit of these numbers is made of, a column each.
+Eigen::MatrixXd smooth_terms(const DiagnosisProblem& problem, const Numbers& data) {
+    const auto shot_of = [&](Eigen::Index i) -> const ShotLabel& {
+        return problem.shots[problem.data[static_cast<std::size_t>(i)].shot];
+    };
+    std::vector<std::string> lots;
+    for (const Eigen::Index i : data) {
+        const std::string& lot = shot_of(i).lot;
+        if (std::find(lots.begin(), lots.end(), lot) == lots.end()) lots.push_back(lot);
+    }
+    const auto n = static_cast<Eigen::Index>(data.size());
+    Eigen::MatrixXd inputs(n, 1 + shot_of(data.front()).other_inputs.size());
+    Eigen::MatrixXd of_lots(n, static_cast<Eigen::Index>(lots.size()));
+    for (Eigen::Index i = 0; i < n; ++i) {
+        const ShotLabel& shot = shot_of(data[static_cast<std::size_t>(i)]);
+        inputs.row(i) << shot.velocity_m_s, shot.other_inputs.transpose();
+        for (std::size_t l = 0; l < lots.size(); ++l)
+            of_lots(i, static_cast<Eigen::Index>(l)) = shot.lot == lots[l] ? 1 : 0;
+    }
+    // To about [-1, 1], or 0 where all are equal.
+    inputs.rowwise() -= inputs.colwise().mean().eval();
+    for (Eigen::Index j = 0; j < inputs.cols(); ++j) {
+        const double reach = inputs.col(j).cwiseAbs().maxCoeff();
+        if (reach > 1e-9) inputs.col(j) /= reach;
+    }
+    Eigen::MatrixXd terms(n, inputs.cols() + 1 + of_lots.cols());
+    terms << inputs, inputs.col(0).cwiseAbs2(), of_lots;
+    return terms;
+}
+
+/// Some numbers in the directions that no smooth misfit has.
+class RoughPart {
+  public:
+    RoughPart(const DiagnosisProblem& problem, Numbers data,
+              const Eigen::VectorXd& residual_mm)
+        : data_(std::move(data)) {
+        const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> smooth(
+            smooth_terms(problem, data_));
+        const auto n = static_cast<Eigen::Index>(data_.size());
+        const Eigen::MatrixXd all = smooth.householderQ();
+        directions_ = all.rightCols(n - smooth.rank());
+        Eigen::VectorXd scale(n);
+        for (Eigen::Index i = 0; i < n; ++i) {
+            const auto at = static_cast<std::size_t>(data_[static_cast<std::size_t>(i)]);
+            scale(i) = problem.data[at].scale_mm;
+        }
+        stated_ =
+            directions_.transpose() * problem.covariance(data_, data_) * directions_;
+        unit_ = directions_.transpose() * scale.cwiseAbs2().asDiagonal() * directions_;
+        residual_ = directions_.transpose() * residual_mm(data_);
+    }
+    Eigen::Index size() const { return directions_.cols(); }
+
+    /// Likeliest relative scatter beyond the stated covariance.
+    double likeliest() const {
+        // Directions in which both are diagonal: the variance is 1 + sd^2 growth.
+        const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> both(unit_,
+                                                                             stated_);
+        const Eigen::ArrayXd growth = both.eigenvalues().array();
+        const Eigen::ArrayXd squares =
+            (both.eigenvectors().transpose() * residual_).array().square();
+        const auto minus_twice_log_likelihood = [&](double sd) {
+            const Eigen::ArrayXd variance = 1 + sd * sd * growth;
+            return (variance.log() + squares / variance).sum();
+        };
+        const auto [sd, least] = boost::math::tools::brent_find_minima(
+            minus_twice_log_likelihood, 0.0, widest, bits);
+        return sd > narrowest && least < minus_twice_log_likelihood(0) ? sd : 0;
+    }
+    /// p of each number's deviation from the others, if they scatter so beyond what is
+    /// stated, known as well as this part knows it.
+    Eigen::VectorXd deviations(double relative_sd) const {
+        const Eigen::MatrixXd scatter = relative_sd * relative_sd * unit_;
+        const Eigen::LLT<Eigen::MatrixXd> covariance(stated_ + scatter);
+        const Eigen::VectorXd pull = covariance.solve(residual_);
+        const Eigen::MatrixXd columns = directions_.transpose();
+        const double share = scatter.trace() / (stated_ + scatter).trace();
+        const double freedom =
+            static_cast<double>(size() - 1) / std::max(share * share, 1e-6);
+        Eigen::VectorXd p(columns.cols());
+        for (Eigen::Index i = 0; i < p.size(); ++i) {
+            const Eigen::VectorXd own = columns.col(i);
+            const double information = own.dot(covariance.solve(own));
+            const double z = own.dot(pull) / std::sqrt(std::max(information, 1e-300));
+            p(i) = fisher_tail(z * z, 1, freedom);
+        }
+        return p;
+    }
+
+  private:
+    Numbers data_;
+    Eigen::MatrixXd directions_;  // an orthonormal column each
+    Eigen::MatrixXd stated_, unit_;
+    Eigen::VectorXd residual_;
+};
+
+/// Scatter of a group of numbers, without one of them if that one is wild.
+double scatter_of(const DiagnosisProblem& problem, const Numbers& data,
+                  const Eigen::VectorXd& residual_mm, const RoughPart& all) {
+    constexpr double wild = 0.01;
+    double scatter = all.likeliest(), least_p = wild / static_cast<double>(data.size());
+    for (std::size_t i = 0; i < data.size(); ++i) {
+        Numbers others = data;
+        others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+        const double without = RoughPart(problem, others, residual_mm).likeliest();
+        const double p = all.deviations(without)(static_cast<Eigen::Index>(i));
+        if (p >= least_p) continue;
+        least_p = p;
+        scatter = without;
+    }
+    return scatter;
+}
+
+}  // namespace
+
+std::vector<UnstatedScatter> unstated_scatter(const DiagnosisProblem& problem,
+                                              const Eigen::VectorXd& residual_mm) {
+    std::vector<UnstatedScatter> scatters;
+    for (const auto& [key, members] : numbers_by_shape_and_size(problem)) {
+        const Numbers data(members.begin(), members.end());
+        if (static_cast<Eigen::Index>(data.size()) < fewest_numbers) continue;
+        const RoughPart rough(problem, data, residual_mm);
+        if (rough.size() < fewest_rough) continue;
+        const double scatter = scatter_of(problem, data, residual_mm, rough);
+        if (!(scatter > 0)) continue;
+        double stated = 0;
+        for (const Eigen::Index i : data)
+            stated += problem.covariance(i, i) /
+                      std::pow(problem.data[static_cast<std::size_t>(i)].scale_mm, 2);
+        scatters.push_back({key.first, key.second, data, scatter,
+                            std::sqrt(stated / static_cast<double>(data.size())),
+                            static_cast<double>(rough.size())});
+    }
+    return scatters;
+}
+
+void count_scatter(const std::vector<UnstatedScatter>& scatters,
+                   DiagnosisProblem& problem) {
+    for (const UnstatedScatter& scatter : scatters)
+        for (const Eigen::Index i : scatter.data) {
+            const double stated = problem.covariance(i, i);
+            const double added = std::pow(
+                scatter.relative_sd * problem.data[static_cast<std::size_t>(i)].scale_mm,
+                2);
+            problem.covariance(i, i) += added;
+            if (problem.freedom.size() == 0) continue;
+            // Welch and Satterthwaite.
+            problem.freedom(i) =
+                std::pow(stated + added, 2) /
+                (stated * stated / problem.freedom(i) + added * added / scatter.freedom);
+        }
+}
+
+}  // namespace taylorcal::calibrate

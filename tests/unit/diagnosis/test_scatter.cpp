@@ -1,0 +1,127 @@
+#include "tests/unit/diagnosis/linear_table.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+using namespace taylorcal;
+using namespace taylorcal::calibrate;
+
+namespace {
+
+constexpr double extra_sd = 0.25;  // [mm], twice what the errors of a number say
+
+bool is_cone_face(const toys::LinearTable& table, Eigen::Index i) {
+    return table.is_cone(i) && i % 3 == 1;
+}
+
+/// Faces of cones that scatter more than their errors say.
+Eigen::VectorXd scattered_faces(const toys::LinearTable& table, std::uint64_t seed) {
+    const RandomStream noise(seed, 17);
+    Eigen::VectorXd extra = table.no_shift();
+    for (Eigen::Index i = 0; i < extra.size(); ++i)
+        if (is_cone_face(table, i))
+            extra(i) = extra_sd * noise.normal(static_cast<std::uint64_t>(i));
+    return extra;
+}
+
+Diagnosis diagnose_table(const toys::LinearTable& table,
+                         const Eigen::VectorXd& measured) {
+    const DiagnosisProblem problem = table.problem(measured);
+    return diagnose([&](const Eigen::VectorXd&) { return problem; },
+                    RowMatrix::Constant(1, 3, 0.5));
+}
+
+const UnstatedScatter* of_cone_faces(const std::vector<UnstatedScatter>& scatters) {
+    const auto found = std::find_if(scatters.begin(), scatters.end(), [](const auto& s) {
+        return s.shape == "truncated_cone" && s.size == "impact_diameter_mm";
+    });
+    return found == scatters.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+TEST_CASE("scatter beyond the stated errors is measured where it is", "[scatter]") {
+    const toys::LinearTable table;
+    constexpr int tables = 60;
+    double found = 0, elsewhere = 0;
+    for (std::uint64_t i = 0; i < tables; ++i) {
+        const Eigen::VectorXd y =
+            table.draw(20000 + i, scattered_faces(table, 20000 + i)) - table.base;
+        for (const UnstatedScatter& s : unstated_scatter(table.problem(y), y)) {
+            CHECK(s.stated_sd == Approx(std::sqrt(1.5) * table.sd / 20));
+            const bool is_there =
+                s.shape == "truncated_cone" && s.size == "impact_diameter_mm";
+            (is_there ? found : elsewhere) += 20 * s.relative_sd / tables;
+        }
+    }
+    CHECK(found == Approx(extra_sd).epsilon(0.2));
+    CHECK(elsewhere / 5 < 0.5 * table.sd);
+}
+
+TEST_CASE("neither an effect nor a wild number is scatter", "[scatter]") {
+    const toys::LinearTable table;
+    const Eigen::VectorXd quiet = table.no_shift();
+    for (Eigen::Index k = 0; k < 8; ++k) {
+        const Eigen::VectorXd effect = table.effects.col(k);
+        CHECK(unstated_scatter(table.problem(effect), 20 * effect).empty());
+    }
+    Eigen::VectorXd wild = quiet;
+    wild(3 * 12 + 1) = 5;
+    CHECK(unstated_scatter(table.problem(wild), wild).empty());
+}
+
+TEST_CASE("what other inputs and lots do to a residual is not scatter", "[scatter]") {
+    const toys::LinearTable table;
+    const std::string odd = "odd", even = "even";
+    Eigen::VectorXd residual = table.no_shift();
+    DiagnosisProblem problem = table.problem(residual);
+    for (Eigen::Index i = 0; i < residual.size(); ++i) {
+        ShotLabel& shot = problem.shots[problem.data[static_cast<std::size_t>(i)].shot];
+        const auto at =
+            static_cast<double>(problem.data[static_cast<std::size_t>(i)].shot);
+        shot.other_inputs = {5 + std::sin(3 * at), 8, 300};
+        shot.lot = std::fmod(at, 2) == 0 ? even : odd;
+        residual(i) = shot.other_inputs(0) + (shot.lot == odd ? 1 : 0);
+    }
+    CHECK(unstated_scatter(problem, residual).empty());
+    for (ShotLabel& shot : problem.shots) shot.lot = odd;
+    CHECK_FALSE(unstated_scatter(problem, residual).empty());
+}
+
+TEST_CASE("tables that scatter more than stated are seldom flagged for it", "[scatter]") {
+    const toys::LinearTable table;
+    constexpr int tables = 150;
+    int flagged = 0, without = 0;
+    for (std::uint64_t i = 0; i < tables; ++i) {
+        const Eigen::VectorXd y =
+            table.draw(30000 + i, scattered_faces(table, 30000 + i));
+        flagged += diagnose_table(table, y).verdict.is_flagged;
+        without += table.diagnose(y).verdict.is_flagged;
+    }
+    INFO(flagged << " flagged of " << tables << ", " << without
+                 << " if it is not counted");
+    CHECK(without > 0.5 * tables);
+    CHECK(flagged < 0.25 * without);
+}
+
+TEST_CASE("effects are found beside the scatter of a table", "[scatter]") {
+    const toys::LinearTable table;
+    int flagged = 0, in_set = 0, total = 0, counted = 0;
+    for (std::size_t k = 0; k < table.candidates.size(); ++k)
+        for (std::uint64_t i = 0; i < 5; ++i) {
+            const Eigen::VectorXd g = table.effects.col(static_cast<Eigen::Index>(k));
+            const Diagnosis found = diagnose_table(
+                table, table.draw(40000 + 100 * k + i, table.amplitude_of(g, 6) * g));
+            ++total;
+            counted += of_cone_faces(found.scatter) != nullptr;
+            flagged += found.verdict.is_flagged;
+            in_set += std::count(found.verdict.effects.begin(),
+                                 found.verdict.effects.end(), k) > 0;
+        }
+    INFO(flagged << " flagged, " << in_set << " in the set of " << total
+                 << ", scatter in " << counted);
+    CHECK(flagged >= 0.85 * total);
+    CHECK(in_set >= 0.9 * flagged);
+}

@@ -18,6 +18,17 @@ double velocity_of(const DiagnosisProblem& problem, std::size_t datum) {
     return problem.shots[problem.data[datum].shot].velocity_m_s;
 }
 
+using Groups = std::map<std::pair<std::string, std::string>, std::vector<std::size_t>>;
+
+/// Numbers of each shape and size.
+Groups groups_of(const DiagnosisProblem& problem) {
+    Groups groups;
+    for (std::size_t i = 0; i < problem.data.size(); ++i)
+        groups[{problem.shots[problem.data[i].shot].shape, problem.data[i].size}]
+            .push_back(i);
+    return groups;
+}
+
 /// 1 % of each number times Legendre's polynomial of this order, velocities from -1 to 1;
 /// zero when all velocities are equal and the order is not.
 Eigen::VectorXd pattern_of(const DiagnosisProblem& problem,
@@ -40,14 +51,6 @@ Eigen::VectorXd pattern_of(const DiagnosisProblem& problem,
 
 }  // namespace
 
-NumberGroups numbers_by_shape_and_size(const DiagnosisProblem& problem) {
-    NumberGroups groups;
-    for (std::size_t i = 0; i < problem.data.size(); ++i)
-        groups[{problem.shots[problem.data[i].shot].shape, problem.data[i].size}]
-            .push_back(i);
-    return groups;
-}
-
 std::vector<Contrast> battery_contrasts(const DiagnosisProblem& problem) {
     std::vector<Contrast> contrasts;
     const auto add = [&](const auto& group, const char* what, unsigned order) {
@@ -60,7 +63,7 @@ std::vector<Contrast> battery_contrasts(const DiagnosisProblem& problem) {
         if (contrast.direction.squaredNorm() > 0)
             contrasts.push_back(std::move(contrast));
     };
-    for (const auto& group : numbers_by_shape_and_size(problem)) {
+    for (const auto& group : groups_of(problem)) {
         if (group.second.size() >= enough_for_mean) add(group, "mean", 0);
         if (group.second.size() >= enough_for_slope) add(group, "slope", 1);
     }
@@ -70,7 +73,7 @@ std::vector<Contrast> battery_contrasts(const DiagnosisProblem& problem) {
 Eigen::MatrixXd smooth_patterns(const DiagnosisProblem& problem) {
     constexpr unsigned highest_order = 2;
     std::vector<Eigen::VectorXd> patterns;
-    for (const auto& [key, data] : numbers_by_shape_and_size(problem))
+    for (const auto& [key, data] : groups_of(problem))
         for (unsigned order = 0; order <= highest_order && order < data.size(); ++order)
             patterns.push_back(pattern_of(problem, data, order));
     Eigen::MatrixXd columns(problem.measured.size(),

@@ -4,9 +4,7 @@
 #include "calibrate/diagnosis/problem.hpp"
 #include "calibrate/diagnosis/projector.hpp"
 
-#include <map>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -23,11 +21,6 @@ struct Contrast {
     double p = 1;       ///< family-wise
     double amount = 0;  ///< the misfit itself, in units of `direction`
 };
-
-/// Positions of the numbers of each shape and size.
-using NumberGroups =
-    std::map<std::pair<std::string, std::string>, std::vector<std::size_t>>;
-NumberGroups numbers_by_shape_and_size(const DiagnosisProblem& problem);
 
 /// For each shape x size: all numbers too large by 1 % ("mean"; two and more data), and
 /// by an amount rising from -1 % to 1 % with velocity ("slope"; four and more). [mm]

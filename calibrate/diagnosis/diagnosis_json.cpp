@@ -141,8 +141,7 @@ json bad_data_json(const DiagnosisProblem& problem, const ModeDiagnosis& mode) {
 json scatter_json(const std::vector<UnstatedScatter>& scatters) {
     json list = json::array();
     for (const UnstatedScatter& scatter : scatters)
-        list.push_back({{"shape", scatter.shape},
-                        {"size", scatter.size},
+        list.push_back({{"size", scatter.size},
                         {"percent", 100 * scatter.relative_sd},
                         {"stated_percent", 100 * scatter.stated_sd}});
     return list;

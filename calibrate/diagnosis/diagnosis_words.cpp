@@ -135,8 +135,7 @@ std::string scatter_words(const Diagnosis& diagnosis) {
     for (const UnstatedScatter& scatter : diagnosis.scatter)
         if (scatter.relative_sd > scatter.stated_sd)
             sizes.push_back(
-                fmt::format("{} of shape {} by {:.1f} % beyond the {:.1f} %",
-                            size_in_words(scatter.size), in_words(scatter.shape),
+                fmt::format("{} by {:.1f} % beyond {:.1f} %", size_in_words(scatter.size),
                             100 * scatter.relative_sd, 100 * scatter.stated_sd));
     if (sizes.empty()) return "";
     return fmt::format(

@@ -1,10 +1,10 @@
 #include "calibrate/diagnosis/unstated_scatter.hpp"
 
-#include "calibrate/diagnosis/contrasts.hpp"
 #include "calibrate/diagnosis/tail_probability.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -14,29 +14,29 @@
 namespace taylorcal::calibrate {
 namespace {
 
-constexpr Eigen::Index fewest_numbers = 6;
 constexpr Eigen::Index fewest_rough = 3;  // directions
 constexpr double widest = 0.3;            // of the size
-constexpr double narrowest = 1e-4;        // of the size; less is none
 constexpr int bits = 20;                  // of the search for the likeliest scatter
+constexpr double worth_a_parameter = 1;   // in ln L (Akaike)
 
 using Numbers = std::vector<Eigen::Index>;
 
-/// What a smooth misfit of these numbers is made of, a column each.
+const ShotLabel& shot_of(const DiagnosisProblem& problem, Eigen::Index number) {
+    return problem.shots[problem.data[static_cast<std::size_t>(number)].shot];
+}
+
+/// What a smooth misfit of numbers of one shape is made of, a column each.
 Eigen::MatrixXd smooth_terms(const DiagnosisProblem& problem, const Numbers& data) {
-    const auto shot_of = [&](Eigen::Index i) -> const ShotLabel& {
-        return problem.shots[problem.data[static_cast<std::size_t>(i)].shot];
-    };
     std::vector<std::string> lots;
     for (const Eigen::Index i : data) {
-        const std::string& lot = shot_of(i).lot;
+        const std::string& lot = shot_of(problem, i).lot;
         if (std::find(lots.begin(), lots.end(), lot) == lots.end()) lots.push_back(lot);
     }
     const auto n = static_cast<Eigen::Index>(data.size());
-    Eigen::MatrixXd inputs(n, 1 + shot_of(data.front()).other_inputs.size());
+    Eigen::MatrixXd inputs(n, 1 + ShotLabel{}.other_inputs.size());
     Eigen::MatrixXd of_lots(n, static_cast<Eigen::Index>(lots.size()));
     for (Eigen::Index i = 0; i < n; ++i) {
-        const ShotLabel& shot = shot_of(data[static_cast<std::size_t>(i)]);
+        const ShotLabel& shot = shot_of(problem, data[static_cast<std::size_t>(i)]);
         inputs.row(i) << shot.velocity_m_s, shot.other_inputs.transpose();
         for (std::size_t l = 0; l < lots.size(); ++l)
             of_lots(i, static_cast<Eigen::Index>(l)) = shot.lot == lots[l] ? 1 : 0;
@@ -52,17 +52,41 @@ Eigen::MatrixXd smooth_terms(const DiagnosisProblem& problem, const Numbers& dat
     return terms;
 }
 
+/// Orthonormal directions of `data` that no smooth misfit of any shape has, a column
+/// each.
+Eigen::MatrixXd rough_directions(const DiagnosisProblem& problem, const Numbers& data) {
+    std::map<std::string, Numbers> places;  // in `data`, by shape
+    for (std::size_t i = 0; i < data.size(); ++i)
+        places[shot_of(problem, data[i]).shape].push_back(static_cast<Eigen::Index>(i));
+    const auto n = static_cast<Eigen::Index>(data.size());
+    Eigen::MatrixXd directions(n, 0);
+    for (const auto& [shape, at] : places) {
+        Numbers own;
+        for (const Eigen::Index i : at) own.push_back(data[static_cast<std::size_t>(i)]);
+        const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> smooth(
+            smooth_terms(problem, own));
+        const Eigen::Index rough = static_cast<Eigen::Index>(at.size()) - smooth.rank();
+        const Eigen::MatrixXd all = smooth.householderQ();
+        directions.conservativeResize(n, directions.cols() + rough);
+        directions.rightCols(rough).setZero();
+        directions.rightCols(rough)(at, Eigen::all) = all.rightCols(rough);
+    }
+    return directions;
+}
+
+struct Likeliest {
+    double relative_sd = 0;
+    double gain = 0;  ///< in ln L over none
+};
+
 /// Some numbers in the directions that no smooth misfit has.
 class RoughPart {
   public:
     RoughPart(const DiagnosisProblem& problem, Numbers data,
               const Eigen::VectorXd& residual_mm)
         : data_(std::move(data)) {
-        const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> smooth(
-            smooth_terms(problem, data_));
+        directions_ = rough_directions(problem, data_);
         const auto n = static_cast<Eigen::Index>(data_.size());
-        const Eigen::MatrixXd all = smooth.householderQ();
-        directions_ = all.rightCols(n - smooth.rank());
         Eigen::VectorXd scale(n);
         for (Eigen::Index i = 0; i < n; ++i) {
             const auto at = static_cast<std::size_t>(data_[static_cast<std::size_t>(i)]);
@@ -76,7 +100,7 @@ class RoughPart {
     Eigen::Index size() const { return directions_.cols(); }
 
     /// Likeliest relative scatter beyond the stated covariance.
-    double likeliest() const {
+    Likeliest likeliest() const {
         // Directions in which both are diagonal: the variance is 1 + sd^2 growth.
         const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> both(unit_,
                                                                              stated_);
@@ -89,7 +113,9 @@ class RoughPart {
         };
         const auto [sd, least] = boost::math::tools::brent_find_minima(
             minus_twice_log_likelihood, 0.0, widest, bits);
-        return sd > narrowest && least < minus_twice_log_likelihood(0) ? sd : 0;
+        const double gain = (minus_twice_log_likelihood(0) - least) / 2;
+        if (gain > 0) return {sd, gain};
+        return {};
     }
     /// p of each number's deviation from the others, if they scatter so beyond what is
     /// stated, known as well as this part knows it.
@@ -119,15 +145,17 @@ class RoughPart {
 };
 
 /// Scatter of a group of numbers, without one of them if that one is wild.
-double scatter_of(const DiagnosisProblem& problem, const Numbers& data,
-                  const Eigen::VectorXd& residual_mm, const RoughPart& all) {
+Likeliest scatter_of(const DiagnosisProblem& problem, const Numbers& data,
+                     const Eigen::VectorXd& residual_mm, const RoughPart& all) {
     constexpr double wild = 0.01;
-    double scatter = all.likeliest(), least_p = wild / static_cast<double>(data.size());
+    Likeliest scatter = all.likeliest();
+    double least_p = wild / static_cast<double>(data.size());
     for (std::size_t i = 0; i < data.size(); ++i) {
         Numbers others = data;
         others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
-        const double without = RoughPart(problem, others, residual_mm).likeliest();
-        const double p = all.deviations(without)(static_cast<Eigen::Index>(i));
+        const Likeliest without = RoughPart(problem, others, residual_mm).likeliest();
+        const double p =
+            all.deviations(without.relative_sd)(static_cast<Eigen::Index>(i));
         if (p >= least_p) continue;
         least_p = p;
         scatter = without;
@@ -139,19 +167,20 @@ double scatter_of(const DiagnosisProblem& problem, const Numbers& data,
 
 std::vector<UnstatedScatter> unstated_scatter(const DiagnosisProblem& problem,
                                               const Eigen::VectorXd& residual_mm) {
+    std::map<std::string, Numbers> by_size;
+    for (std::size_t i = 0; i < problem.data.size(); ++i)
+        by_size[problem.data[i].size].push_back(static_cast<Eigen::Index>(i));
     std::vector<UnstatedScatter> scatters;
-    for (const auto& [key, members] : numbers_by_shape_and_size(problem)) {
-        const Numbers data(members.begin(), members.end());
-        if (static_cast<Eigen::Index>(data.size()) < fewest_numbers) continue;
+    for (const auto& [size, data] : by_size) {
         const RoughPart rough(problem, data, residual_mm);
         if (rough.size() < fewest_rough) continue;
-        const double scatter = scatter_of(problem, data, residual_mm, rough);
-        if (!(scatter > 0)) continue;
+        const Likeliest scatter = scatter_of(problem, data, residual_mm, rough);
+        if (scatter.gain < worth_a_parameter) continue;
         double stated = 0;
         for (const Eigen::Index i : data)
             stated += problem.covariance(i, i) /
                       std::pow(problem.data[static_cast<std::size_t>(i)].scale_mm, 2);
-        scatters.push_back({key.first, key.second, data, scatter,
+        scatters.push_back({size, data, scatter.relative_sd,
                             std::sqrt(stated / static_cast<double>(data.size())),
                             static_cast<double>(rough.size())});
     }

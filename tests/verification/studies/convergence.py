@@ -8,9 +8,16 @@ from impact_study import SERIES, VELOCITIES, convergence_cases, convergence_name
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
+from matplotlib.lines import Line2D  # noqa: E402
 
 DRAWN = SIZES[:5]
-STYLES = {("axisymmetric", 16): "o-", ("3d", 1): "s:", ("3d", 4): "^--"}  # by grains a point
+# By grains a point.
+STYLES = {
+    ("axisymmetric", 16): {"marker": "o", "linestyle": "-"},
+    ("3d", 1): {"marker": "s", "linestyle": ":"},
+    ("3d", 4): {"marker": "^", "linestyle": "--"},
+    ("3d", 16): {"marker": "v", "linestyle": "-."},
+}
 COLOURS = dict(zip(SIZES, plt.get_cmap("tab10").colors))
 
 
@@ -61,6 +68,19 @@ def add_deviations(table):
     return table
 
 
+def legend_handles():
+    """A colour for each size, a style for each geometry and number of grains."""
+    sizes = [
+        Line2D([], [], color=COLOURS[size], label=size.removesuffix("_mm").replace("_", " "))
+        for size in DRAWN
+    ]
+    series = []
+    for (geometry, grains), style in STYLES.items():
+        words = f"{geometry}, {grains} grain{'s' if grains > 1 else ''} a point"
+        series.append(Line2D([], [], color="0.3", markersize=4, label=words, **style))
+    return sizes + series
+
+
 def draw(table, path):
     figure, axes = plt.subplots(len(SHAPES), len(VELOCITIES), figsize=(11, 12), sharex=True)
     for row, shape in zip(axes, SHAPES):
@@ -72,10 +92,9 @@ def draw(table, path):
                     axis.plot(
                         part["elements"],
                         part[f"{size}_deviation_percent"],
-                        style,
                         markersize=4,
                         color=COLOURS[size],
-                        label=f"{size.removesuffix('_mm').replace('_', ' ')}, {geometry}, {grains}",
+                        **style,
                     )
             axis.axhspan(-1, 1, color="0.92", zorder=0)
             axis.set_title(f"{SHAPE_WORDS[shape]}, {velocity} m/s", fontsize=10)
@@ -87,16 +106,8 @@ def draw(table, path):
         axis.set_xlabel("cells or particles across the rear's radius")
     for axis in axes[:, 0]:
         axis.set_ylabel("from the finest cells [%]")
-    handles, labels = axes[0, 0].get_legend_handles_labels()
-    figure.legend(
-        handles,
-        labels,
-        loc="lower center",
-        ncol=3,
-        fontsize=9,
-        title="size, geometry, grains a point",
-    )
-    figure.tight_layout(rect=(0, 0.1, 1, 1))
+    figure.legend(handles=legend_handles(), loc="lower center", ncol=3, fontsize=9)
+    figure.tight_layout(rect=(0, 0.06, 1, 1))
     figure.savefig(path, dpi=110)
 
 

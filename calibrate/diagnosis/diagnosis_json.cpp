@@ -142,7 +142,7 @@ json scatter_json(const std::vector<UnstatedScatter>& scatters) {
     json list = json::array();
     for (const UnstatedScatter& scatter : scatters)
         list.push_back({{"size", scatter.size},
-                        {"percent", 100 * scatter.relative_sd},
+                        {"percent", 100 * scatter.over_stated * scatter.stated_sd},
                         {"stated_percent", 100 * scatter.stated_sd}});
     return list;
 }

@@ -133,10 +133,10 @@ std::string wild_words(const DiagnosisProblem& problem, const Diagnosis& diagnos
 std::string scatter_words(const Diagnosis& diagnosis) {
     std::vector<std::string> sizes;
     for (const UnstatedScatter& scatter : diagnosis.scatter)
-        if (scatter.relative_sd > scatter.stated_sd)
-            sizes.push_back(
-                fmt::format("{} by {:.1f} % beyond {:.1f} %", size_in_words(scatter.size),
-                            100 * scatter.relative_sd, 100 * scatter.stated_sd));
+        if (scatter.over_stated > 1)
+            sizes.push_back(fmt::format(
+                "{} by {:.1f} % beyond {:.1f} %", size_in_words(scatter.size),
+                100 * scatter.over_stated * scatter.stated_sd, 100 * scatter.stated_sd));
     if (sizes.empty()) return "";
     return fmt::format(
         "From shot to shot, without a trend, sizes scatter more than their errors say: "

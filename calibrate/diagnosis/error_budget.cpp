@@ -17,18 +17,12 @@ struct Place {
     double velocity = 0;    // -1 ... 1 over the paired runs of the shape
 };
 
-// What is left of a fit is partly grains, new for every shot, and partly what the
-// polynomial misses, alike for shots of neighbouring velocity. Paired runs have other
-// parameters each, so that they cannot tell the one from the other: half of the variance
-// each.
-constexpr double missed_share = 0.5;
 constexpr double missed_reach = 0.6;  // of the scaled velocity
 
-/// Correlation of what a fit leaves at two shots of a shape.
-double correlation_of_rest(const Place& a, const Place& b) {
-    if (a.datum == b.datum) return 1;
+/// Correlation of what a polynomial misses at two shots of a shape.
+double correlation_of_missed(const Place& a, const Place& b) {
     const double apart = (a.velocity - b.velocity) / missed_reach;
-    return missed_share * std::exp(-apart * apart / 2);
+    return std::exp(-apart * apart / 2);
 }
 
 template <class FitOfShape>
@@ -49,25 +43,29 @@ std::vector<Place> places_in(const CorrectedPredictor& predictor,
     return places;
 }
 
-/// Adds D_i D_j noise_ab x [correlation of the rest + terms_i spread terms_j] for pairs
-/// of a shape.
+/// Adds D_i D_j noise_ab x [missed share x its correlation + terms_i spread terms_j] for
+/// pairs of a shape, and what grains do within a shot.
 void add_fit_errors(const std::vector<Place>& places, const CorrectedPredictor& predictor,
-                    const auto& fit_of, Eigen::MatrixXd* of_points,
-                    Eigen::MatrixXd* of_coefficients) {
+                    const auto& fit_of, const auto& grains_of, Eigen::MatrixXd& of_points,
+                    Eigen::MatrixXd& of_coefficients) {
     const auto n = static_cast<Eigen::Index>(places.size());
     for (Eigen::Index i = 0; i < n; ++i) {
         const Place& a = places[static_cast<std::size_t>(i)];
-        const SmoothFit* fit = fit_of(predictor.signature(a.datum->shot.shape));
+        const ShapeSignature& shape = predictor.signature(a.datum->shot.shape);
+        const SmoothFit* fit = fit_of(shape);
         if (!fit) continue;
+        const Eigen::MatrixXd grains = grains_of(shape);
         const Eigen::VectorXd spread = fit->spread * a.terms;
         for (Eigen::Index j = 0; j < n; ++j) {
             const Place& b = places[static_cast<std::size_t>(j)];
             if (b.datum->shot.shape != a.datum->shot.shape) continue;
-            const double size = a.datum->shot.initial_diameter_mm *
-                                b.datum->shot.initial_diameter_mm *
-                                fit->noise(a.output, b.output);
-            if (of_points) (*of_points)(i, j) += size * correlation_of_rest(a, b);
-            if (of_coefficients) (*of_coefficients)(i, j) += size * spread.dot(b.terms);
+            const double area =
+                a.datum->shot.initial_diameter_mm * b.datum->shot.initial_diameter_mm;
+            const double noise = fit->noise(a.output, b.output);
+            double points = missed_share * noise * correlation_of_missed(a, b);
+            if (a.datum == b.datum) points += grains(a.output, b.output);
+            of_points(i, j) += area * points;
+            of_coefficients(i, j) += area * noise * spread.dot(b.terms);
         }
     }
 }
@@ -137,8 +135,11 @@ ErrorBudget error_budget(const CorrectedPredictor& predictor, const CorrectedMod
         budget.velocity.block(at, at, count, count) = slope * slope.transpose();
         at += count;
     }
-    add_fit_errors(places, predictor, network_error_of, &budget.scatter,
-                   &budget.correction);
+    const auto grains_of = [](const ShapeSignature& shape) {
+        return shape.grain_scatter;
+    };
+    add_fit_errors(places, predictor, network_error_of, grains_of, budget.scatter,
+                   budget.correction);
     add_resolution(predictor, places_in(predictor, model, resolution_of),
                    budget.resolution);
     return budget;
@@ -178,7 +179,10 @@ Eigen::MatrixXd effect_errors(const CorrectedPredictor& predictor,
     const std::vector<Place> places = places_in(predictor, model, fit_of);
     const auto n = static_cast<Eigen::Index>(places.size());
     Eigen::MatrixXd errors = Eigen::MatrixXd::Zero(n, n);
-    add_fit_errors(places, predictor, fit_of, &errors, &errors);
+    const auto grains_of = [&](const ShapeSignature& shape) -> Eigen::MatrixXd {
+        return (1 - missed_share) * fit_of(shape)->noise;
+    };
+    add_fit_errors(places, predictor, fit_of, grains_of, errors, errors);
     return errors / std::pow(predictor.typical(k), 2);
 }
 
@@ -195,7 +199,7 @@ Eigen::MatrixXd covariance_of_new_shot(const CorrectedPredictor& predictor,
     Eigen::MatrixXd covariance = slope * slope.transpose();
     covariance.diagonal() += sizes.cwiseProduct(relative_sd(shape.sizes)).cwiseAbs2();
     const double area = shot.initial_diameter_mm * shot.initial_diameter_mm;
-    covariance += area * shape.network_error.noise;
+    covariance += area * (missed_share * shape.network_error.noise + shape.grain_scatter);
     if (shape.resolution) {
         const Eigen::VectorXd pattern =
             left_to_limit * (*shape.resolution)(shape.terms(

@@ -102,7 +102,7 @@ std::optional<ShapeSignature> shape_signature(const PairedRuns& runs,
         std::count_if(bases.begin(), bases.end(), [&](std::size_t i) {
             return finer[i].size() > 0 && finer[i](signature.sizes).allFinite();
         }) >= fewest_points;
-    Rows network_error, resolution, descriptors;
+    Rows network_error, base_error, resolution, descriptors;
     for (const std::size_t i : bases) {
         const BaseRun& run = runs.bases[i];
         const Eigen::VectorXd scaled = signature.scaling(inputs_of(run));
@@ -111,6 +111,7 @@ std::optional<ShapeSignature> shape_signature(const PairedRuns& runs,
             network.predict(run.shot, run.parameters.transpose()).row(0).transpose();
         descriptors.add(scaled, 1, run.descriptors);
         Eigen::VectorXd error = run.sizes_mm - predicted;
+        base_error.add(scaled, 1, error(signature.sizes) / diameter);
         if (has_finer) {
             if (finer[i].size() == 0) continue;
             resolution.add(scaled, 1, finer[i](signature.sizes) / diameter);
@@ -121,6 +122,9 @@ std::optional<ShapeSignature> shape_signature(const PairedRuns& runs,
     const std::optional<SmoothFit> error = network_error.fit();
     if (!error) return std::nullopt;
     signature.network_error = *error;
+    signature.grain_scatter = has_finer
+                                  ? base_error.fit()->noise
+                                  : Eigen::MatrixXd((1 - missed_share) * error->noise);
     signature.resolution = resolution.fit();
     signature.descriptors = descriptors.fit().value_or(SmoothFit{});
 

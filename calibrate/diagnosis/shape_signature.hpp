@@ -16,12 +16,21 @@ namespace taylorcal::calibrate {
 Eigen::VectorXd signature_inputs(const Shot& shot, const Eigen::VectorXd& parameters,
                                  const std::vector<Parameter>& priors);
 
+/// What is left of a fit is partly grains, new for every shot, and partly what the
+/// polynomial misses, alike for shots of neighbouring velocity. Paired runs have other
+/// parameters each, so that they cannot tell the one from the other: half of the variance
+/// each.
+inline constexpr double missed_share = 0.5;
+
 /// What the paired runs of one shape teach. All sizes are divided by the initial
 /// diameter.
 struct ShapeSignature {
     InputScaling scaling;
     std::vector<Eigen::Index> sizes;  ///< fitted sizes that the shape has
     SmoothFit network_error;  ///< solver, at the finest fidelity there is, - network
+    /// Covariance of the sizes' scatter from one set of grains to another, from the base
+    /// runs: specimens are taken to scatter no less.
+    Eigen::MatrixXd grain_scatter;
     std::vector<std::optional<SmoothFit>> effects;  ///< change / (amplitude / typical)
     std::optional<SmoothFit> resolution;            ///< finer - present fidelity
     SmoothFit descriptors;

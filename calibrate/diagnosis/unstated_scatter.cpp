@@ -15,7 +15,7 @@ namespace taylorcal::calibrate {
 namespace {
 
 constexpr Eigen::Index fewest_rough = 3;  // directions
-constexpr double widest = 0.3;            // of the size
+constexpr double widest = 10;             // in stated standard errors
 constexpr int bits = 20;                  // of the search for the likeliest scatter
 constexpr double worth_a_parameter = 1;   // in ln L (Akaike)
 
@@ -25,7 +25,7 @@ const ShotLabel& shot_of(const DiagnosisProblem& problem, Eigen::Index number) {
     return problem.shots[problem.data[static_cast<std::size_t>(number)].shot];
 }
 
-/// What a smooth misfit of numbers of one shape is made of, a column each.
+/// What a smooth misfit of a size of one shape is made of, a column each.
 Eigen::MatrixXd smooth_terms(const DiagnosisProblem& problem, const Numbers& data) {
     std::vector<std::string> lots;
     for (const Eigen::Index i : data) {
@@ -52,15 +52,17 @@ Eigen::MatrixXd smooth_terms(const DiagnosisProblem& problem, const Numbers& dat
     return terms;
 }
 
-/// Orthonormal directions of `data` that no smooth misfit of any shape has, a column
-/// each.
+/// Orthonormal directions of `data` that no smooth misfit of any shape and size has, a
+/// column each.
 Eigen::MatrixXd rough_directions(const DiagnosisProblem& problem, const Numbers& data) {
-    std::map<std::string, Numbers> places;  // in `data`, by shape
+    std::map<std::pair<std::string, std::string>, Numbers> places;  // in `data`
     for (std::size_t i = 0; i < data.size(); ++i)
-        places[shot_of(problem, data[i]).shape].push_back(static_cast<Eigen::Index>(i));
+        places[{shot_of(problem, data[i]).shape,
+                problem.data[static_cast<std::size_t>(data[i])].size}]
+            .push_back(static_cast<Eigen::Index>(i));
     const auto n = static_cast<Eigen::Index>(data.size());
     Eigen::MatrixXd directions(n, 0);
-    for (const auto& [shape, at] : places) {
+    for (const auto& [key, at] : places) {
         Numbers own;
         for (const Eigen::Index i : at) own.push_back(data[static_cast<std::size_t>(i)]);
         const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> smooth(
@@ -75,8 +77,8 @@ Eigen::MatrixXd rough_directions(const DiagnosisProblem& problem, const Numbers&
 }
 
 struct Likeliest {
-    double relative_sd = 0;
-    double gain = 0;  ///< in ln L over none
+    double over_stated = 0;  ///< standard deviation over that of the errors
+    double gain = 0;         ///< in ln L over none
 };
 
 /// Some numbers in the directions that no smooth misfit has.
@@ -84,22 +86,15 @@ class RoughPart {
   public:
     RoughPart(const DiagnosisProblem& problem, Numbers data,
               const Eigen::VectorXd& residual_mm)
-        : data_(std::move(data)) {
-        directions_ = rough_directions(problem, data_);
-        const auto n = static_cast<Eigen::Index>(data_.size());
-        Eigen::VectorXd scale(n);
-        for (Eigen::Index i = 0; i < n; ++i) {
-            const auto at = static_cast<std::size_t>(data_[static_cast<std::size_t>(i)]);
-            scale(i) = problem.data[at].scale_mm;
-        }
-        stated_ =
-            directions_.transpose() * problem.covariance(data_, data_) * directions_;
-        unit_ = directions_.transpose() * scale.cwiseAbs2().asDiagonal() * directions_;
+        : data_(std::move(data)), directions_(rough_directions(problem, data_)) {
+        const Eigen::MatrixXd errors = problem.covariance(data_, data_);
+        stated_ = directions_.transpose() * errors * directions_;
+        unit_ = directions_.transpose() * errors.diagonal().asDiagonal() * directions_;
         residual_ = directions_.transpose() * residual_mm(data_);
     }
     Eigen::Index size() const { return directions_.cols(); }
 
-    /// Likeliest relative scatter beyond the stated covariance.
+    /// Likeliest scatter beyond the stated covariance.
     Likeliest likeliest() const {
         // Directions in which both are diagonal: the variance is 1 + sd^2 growth.
         const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> both(unit_,
@@ -117,24 +112,19 @@ class RoughPart {
         if (gain > 0) return {sd, gain};
         return {};
     }
-    /// p of each number's deviation from the others, if they scatter so beyond what is
-    /// stated, known as well as this part knows it.
-    Eigen::VectorXd deviations(double relative_sd) const {
-        const Eigen::MatrixXd scatter = relative_sd * relative_sd * unit_;
+    /// p of a number's deviation from the others, if they scatter so beyond what is
+    /// stated, known as well as this part knows it. `at`: among the numbers of this part.
+    double deviation(Eigen::Index at, double over_stated) const {
+        const Eigen::MatrixXd scatter = over_stated * over_stated * unit_;
         const Eigen::LLT<Eigen::MatrixXd> covariance(stated_ + scatter);
-        const Eigen::VectorXd pull = covariance.solve(residual_);
-        const Eigen::MatrixXd columns = directions_.transpose();
         const double share = scatter.trace() / (stated_ + scatter).trace();
         const double freedom =
             static_cast<double>(size() - 1) / std::max(share * share, 1e-6);
-        Eigen::VectorXd p(columns.cols());
-        for (Eigen::Index i = 0; i < p.size(); ++i) {
-            const Eigen::VectorXd own = columns.col(i);
-            const double information = own.dot(covariance.solve(own));
-            const double z = own.dot(pull) / std::sqrt(std::max(information, 1e-300));
-            p(i) = fisher_tail(z * z, 1, freedom);
-        }
-        return p;
+        const Eigen::VectorXd own = directions_.row(at).transpose();
+        const Eigen::VectorXd weights = covariance.solve(own);
+        const double information = std::max(own.dot(weights), 1e-300);
+        const double pull = weights.dot(residual_);
+        return fisher_tail(pull * pull / information, 1, freedom);
     }
 
   private:
@@ -144,22 +134,25 @@ class RoughPart {
     Eigen::VectorXd residual_;
 };
 
-/// Scatter of a group of numbers, without one of them if that one is wild.
+/// Scatter of some numbers, without one of them if that one is wild; none if there are
+/// too few or if it is hardly likelier than none.
 Likeliest scatter_of(const DiagnosisProblem& problem, const Numbers& data,
-                     const Eigen::VectorXd& residual_mm, const RoughPart& all) {
+                     const Eigen::VectorXd& residual_mm) {
     constexpr double wild = 0.01;
+    const RoughPart all(problem, data, residual_mm);
+    if (all.size() < fewest_rough) return {};
     Likeliest scatter = all.likeliest();
     double least_p = wild / static_cast<double>(data.size());
     for (std::size_t i = 0; i < data.size(); ++i) {
         Numbers others = data;
         others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
         const Likeliest without = RoughPart(problem, others, residual_mm).likeliest();
-        const double p =
-            all.deviations(without.relative_sd)(static_cast<Eigen::Index>(i));
+        const double p = all.deviation(static_cast<Eigen::Index>(i), without.over_stated);
         if (p >= least_p) continue;
         least_p = p;
         scatter = without;
     }
+    if (scatter.gain < worth_a_parameter) return {};
     return scatter;
 }
 
@@ -167,22 +160,33 @@ Likeliest scatter_of(const DiagnosisProblem& problem, const Numbers& data,
 
 std::vector<UnstatedScatter> unstated_scatter(const DiagnosisProblem& problem,
                                               const Eigen::VectorXd& residual_mm) {
+    Numbers all;
     std::map<std::string, Numbers> by_size;
-    for (std::size_t i = 0; i < problem.data.size(); ++i)
-        by_size[problem.data[i].size].push_back(static_cast<Eigen::Index>(i));
+    for (Eigen::Index i = 0; i < problem.measured.size(); ++i) {
+        all.push_back(i);
+        by_size[problem.data[static_cast<std::size_t>(i)].size].push_back(i);
+    }
+    std::map<std::string, Likeliest> own;
+    double gain_by_size = 0;
+    for (const auto& [size, data] : by_size) {
+        own[size] = scatter_of(problem, data, residual_mm);
+        if (own[size].gain > 0) gain_by_size += own[size].gain - worth_a_parameter;
+    }
+    const Likeliest common = scatter_of(problem, all, residual_mm);
+    const bool is_common = common.gain - worth_a_parameter > gain_by_size;
     std::vector<UnstatedScatter> scatters;
     for (const auto& [size, data] : by_size) {
-        const RoughPart rough(problem, data, residual_mm);
-        if (rough.size() < fewest_rough) continue;
-        const Likeliest scatter = scatter_of(problem, data, residual_mm, rough);
-        if (scatter.gain < worth_a_parameter) continue;
+        const Likeliest& scatter = is_common ? common : own[size];
+        if (!(scatter.gain > 0)) continue;
         double stated = 0;
         for (const Eigen::Index i : data)
             stated += problem.covariance(i, i) /
                       std::pow(problem.data[static_cast<std::size_t>(i)].scale_mm, 2);
-        scatters.push_back({size, data, scatter.relative_sd,
+        const Eigen::Index rough =
+            rough_directions(problem, is_common ? all : data).cols();
+        scatters.push_back({size, data, scatter.over_stated,
                             std::sqrt(stated / static_cast<double>(data.size())),
-                            static_cast<double>(rough.size())});
+                            static_cast<double>(rough)});
     }
     return scatters;
 }
@@ -192,9 +196,7 @@ void count_scatter(const std::vector<UnstatedScatter>& scatters,
     for (const UnstatedScatter& scatter : scatters)
         for (const Eigen::Index i : scatter.data) {
             const double stated = problem.covariance(i, i);
-            const double added = std::pow(
-                scatter.relative_sd * problem.data[static_cast<std::size_t>(i)].scale_mm,
-                2);
+            const double added = scatter.over_stated * scatter.over_stated * stated;
             problem.covariance(i, i) += added;
             if (problem.freedom.size() == 0) continue;
             // Welch and Satterthwaite.

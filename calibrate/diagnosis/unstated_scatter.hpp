@@ -13,17 +13,17 @@ namespace taylorcal::calibrate {
 struct UnstatedScatter {
     std::string size;
     std::vector<Eigen::Index> data;  ///< numbers of the problem that scatter so
-    double relative_sd = 0;          ///< of the size, beyond what its errors say
-    double stated_sd = 0;            ///< what the errors say, root mean square, relative
-    double freedom = 0;              ///< degrees of freedom that it is known with
+    double over_stated = 0;  ///< standard deviation beyond the errors, over theirs
+    double stated_sd = 0;    ///< theirs, root mean square, over the size
+    double freedom = 0;      ///< degrees of freedom that it is known with
 };
 
-/// What missing physics leaves is smooth in velocity, what errors leave is not. For each
-/// size the residual [mm] of each shape is freed of a parabola in velocity, of a straight
-/// line in each other input and of each lot's mean; the likelihood of the rest, all
-/// shapes together, says how much scatter the covariance lacks. A number that stands
-/// wildly apart from the others (p < 0.01) is not scatter. Sizes that lack none, or have
-/// too few numbers to say, are left out.
+/// What missing physics leaves is smooth in velocity, what errors leave is not. Of each
+/// shape and size the residual [mm] is freed of a parabola in velocity, of a straight
+/// line in each other input and of each lot's mean; the likelihood of the rest says how
+/// much scatter the covariance lacks: in all numbers alike, and in each size besides. A
+/// number that stands wildly apart from the others (p < 0.01) is not scatter. Sizes that
+/// lack none are left out.
 std::vector<UnstatedScatter> unstated_scatter(const DiagnosisProblem& problem,
                                               const Eigen::VectorXd& residual_mm);
 

@@ -326,6 +326,18 @@ QUESTIONS = [
         lambda case: not case.names_one_wrongly,
         0.95,
     ),
+    Question(
+        "errors twice as large as stated are not taken for an effect",
+        _is("understated errors"),
+        lambda case: case.verdict["kind"] not in ("effect", "one of"),
+        0.95,
+    ),
+    Question(
+        "errors twice as large as stated: nothing is flagged, and the scatter is told",
+        _is("understated errors"),
+        lambda case: not _flagged(case) and bool(case.diagnosis["errors"]["unstated_scatter"]),
+        0.80,
+    ),
 ]
 
 

@@ -20,6 +20,7 @@ from specimens import DIAMETER_MM, LENGTH_MM, TEMPERATURE_K, ShotSet, shot_set
 
 HELD_BACK = 5  # one shot in so many
 BIAS = (0.015, 0.03)  # of the velocities that the gun reports
+UNDERSTATEMENT = 2.0  # errors over what the table says of them
 DOUBLED = {"drag_slope": "phonon_drag"}  # constant -> effect of the same meaning
 SOURCE = "blind: computed, noise added"
 
@@ -53,6 +54,8 @@ def table_rows(table: Table, shots: ShotSet, sizes: np.ndarray, bias: float) -> 
     """Measured = true x (1 + noise), the velocity's too; its true value is not told."""
     random = np.random.default_rng([SEED, 5, table.noise])
     noise = random.standard_normal((len(sizes), len(NOISE) + 1))
+    if table.kind == "understated errors":
+        noise[:, :-1] *= UNDERSTATEMENT
     rows = []
     for index, shape in enumerate(shots.shapes):
         velocity = shots.velocities[index] * (1 + bias) * (1 + VELOCITY_NOISE * noise[index, -1])

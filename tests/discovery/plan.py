@@ -13,6 +13,7 @@ SETS = 6
 NULLS_A_SET = 18
 CORRUPTED = 12
 BIASED = 6
+UNDERSTATED = 12
 NOISES = 3  # tables of a variant with something hidden
 ALL, TWINS = "all", "twins"  # the lists of candidates; "without <effect>" are the others
 
@@ -42,7 +43,9 @@ class Variant:
 
 @dataclass(frozen=True)
 class Table:
-    """One blind table. `kind`: null, effect, two effects, outside, twins, bad shot, bias."""
+    """One blind table. `kind`: null, effect, two effects, outside, twins, bad shot, bias,
+    understated errors.
+    """
 
     id: str
     kind: str
@@ -98,6 +101,9 @@ def plan(effects: list[str], twins: list[str]) -> list[Table]:
     cases += [("bad shot", plain[index % SETS], ALL) for index in range(CORRUPTED)]
     cases += [("bias", plain[index % SETS], ALL) for index in range(BIASED)]
     order = np.random.default_rng([SEED, 3]).permutation(len(cases))
+    more = [("understated errors", plain[index % SETS], ALL) for index in range(UNDERSTATED)]
+    later = np.random.default_rng([SEED, 7]).permutation(len(more)) + len(cases)
+    cases, order = cases + more, np.concatenate([order, later])
     tables = [
         Table(f"t{place + 1:03d}", *case, noise)
         for noise, (place, case) in enumerate(zip(order, cases, strict=True))

@@ -51,7 +51,7 @@ def test_there_are_enough_tables_of_each_kind(made):
     assert kinds.count("null") >= 100
     for effect in EFFECTS:
         assert sum(list(truth["effects"]) == [effect] for _, _, truth in made) >= 3
-    for kind in ("two effects", "outside", "twins", "bad shot", "bias"):
+    for kind in ("two effects", "outside", "twins", "bad shot", "bias", "understated errors"):
         assert kinds.count(kind) >= 3
 
 

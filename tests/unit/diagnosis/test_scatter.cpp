@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include <catch2/catch.hpp>
 
@@ -40,11 +41,31 @@ TEST_CASE("scatter beyond the stated errors is measured where it is", "[scatter]
         for (const UnstatedScatter& s : unstated_scatter(table.problem(y), y)) {
             CHECK(s.stated_sd == Approx(std::sqrt(1.5) * table.sd / 20));
             (s.size == "impact_diameter_mm" ? found : elsewhere) +=
-                20 * s.relative_sd / tables;
+                20 * s.over_stated * s.stated_sd / tables;
         }
     }
     CHECK(found == Approx(extra_sd).epsilon(0.2));
-    CHECK(elsewhere / 2 < 0.5 * table.sd);
+    CHECK(elsewhere / 2 < 0.5 * std::sqrt(1.5) * table.sd);
+}
+
+TEST_CASE("errors twice as large as stated are told for all sizes", "[scatter]") {
+    const toys::LinearTable table;
+    constexpr int tables = 40;
+    int told = 0, flagged = 0, without = 0;
+    for (std::uint64_t i = 0; i < tables; ++i) {
+        const Eigen::VectorXd once = table.draw(50000 + i, table.no_shift());
+        const Eigen::VectorXd y = table.base + 2 * (once - table.base);
+        const Diagnosis found = diagnose_table(table, y);
+        told += found.scatter.size() == 3 &&
+                verdict_words(table.problem(y), found).find("final length by") !=
+                    std::string::npos;
+        flagged += found.verdict.is_flagged;
+        without += table.diagnose(y).verdict.is_flagged;
+    }
+    INFO(told << " told, " << flagged << " flagged, " << without << " if not counted");
+    CHECK(told >= 0.85 * tables);
+    CHECK(without >= 0.85 * tables);
+    CHECK(flagged <= 0.15 * tables);
 }
 
 TEST_CASE("neither an effect nor a wild number is scatter", "[scatter]") {

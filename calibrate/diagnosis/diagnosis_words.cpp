@@ -140,9 +140,8 @@ std::string scatter_words(const Diagnosis& diagnosis) {
     if (sizes.empty()) return "";
     return fmt::format(
         "From shot to shot, without a trend, sizes scatter more than their errors say: "
-        "{}. "
-        "That is counted as an error and not as missing physics; see whether the stated "
-        "errors are too small. ",
+        "{}. That is counted as an error and not as missing physics; see whether the "
+        "stated errors are too small. ",
         fmt::join(sizes, ", "));
 }
 

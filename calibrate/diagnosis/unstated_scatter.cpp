@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -142,16 +143,17 @@ Likeliest scatter_of(const DiagnosisProblem& problem, const Numbers& data,
     const RoughPart all(problem, data, residual_mm);
     if (all.size() < fewest_rough) return {};
     Likeliest scatter = all.likeliest();
-    double least_p = wild / static_cast<double>(data.size());
-    for (std::size_t i = 0; i < data.size(); ++i) {
-        Numbers others = data;
-        others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
-        const Likeliest without = RoughPart(problem, others, residual_mm).likeliest();
-        const double p = all.deviation(static_cast<Eigen::Index>(i), without.over_stated);
-        if (p >= least_p) continue;
-        least_p = p;
+    Eigen::VectorXd p(static_cast<Eigen::Index>(data.size()));
+    for (Eigen::Index i = 0; i < p.size(); ++i)
+        p(i) = all.deviation(i, scatter.over_stated);
+    Eigen::Index wildest = 0;
+    p.minCoeff(&wildest);
+    Numbers others = data;
+    others.erase(others.begin() + wildest);
+    const Likeliest without = RoughPart(problem, others, residual_mm).likeliest();
+    if (all.deviation(wildest, without.over_stated) * static_cast<double>(p.size()) <
+        wild)
         scatter = without;
-    }
     if (scatter.gain < worth_a_parameter) return {};
     return scatter;
 }

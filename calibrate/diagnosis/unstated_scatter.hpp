@@ -21,9 +21,9 @@ struct UnstatedScatter {
 /// What missing physics leaves is smooth in velocity, what errors leave is not. Of each
 /// shape and size the residual [mm] is freed of a parabola in velocity, of a straight
 /// line in each other input and of each lot's mean; the likelihood of the rest says how
-/// much scatter the covariance lacks: in all numbers alike, and in each size besides. A
-/// number that stands wildly apart from the others (p < 0.01) is not scatter. Sizes that
-/// lack none are left out.
+/// much scatter the covariance lacks, in each size or, where one number for all says as
+/// much, in all alike. The wildest number, if it stands apart from the others (p < 0.01),
+/// is not scatter. Sizes that lack none are left out.
 std::vector<UnstatedScatter> unstated_scatter(const DiagnosisProblem& problem,
                                               const Eigen::VectorXd& residual_mm);
 

@@ -28,6 +28,7 @@ class Case:
     diagnosis: dict
     refit: dict | None = None
     left_sd: float = 0.0  # of `left_over`
+    distances: dict | None = None  # of the refit's parameters, by `distances_to_truth`
 
     @property
     def verdict(self) -> dict:
@@ -168,7 +169,7 @@ def left_out_in_turn_falls(case: Case) -> bool:
 
 
 def moves_toward_truth(case: Case) -> bool:
-    """Distance to the true parameters, in the metric of the fit's information."""
+    """Distance to the true parameters, in the metric of the fit's information, linear."""
     information = np.array(case.refit["information"])
 
     def distance(which: str) -> float:
@@ -178,6 +179,11 @@ def moves_toward_truth(case: Case) -> bool:
         return float(np.array(away) @ information @ np.array(away))
 
     return distance("with") < distance("without")
+
+
+def predicts_like_truth(case: Case) -> bool:
+    """Distance to the true parameters by what they predict, along curved ridges, too."""
+    return case.distances["with"] < case.distances["without"]
 
 
 def amplitude_covered(case: Case) -> bool:
@@ -310,6 +316,12 @@ QUESTIONS = [
         "the hidden effect added: parameters move toward the truth",
         _named_rightly,
         moves_toward_truth,
+        0.90,
+    ),
+    Question(
+        "the hidden effect added: parameters predict more nearly what the true ones do",
+        lambda case: _named_rightly(case) and case.distances is not None,
+        predicts_like_truth,
         0.90,
     ),
     Question(

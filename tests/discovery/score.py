@@ -1,20 +1,23 @@
 """Scores the diagnoses of the blind tables: a table for people, CSV and JSON, and a figure.
 
-/usr/bin/python3 tests/discovery/score.py --tables tables --sealed sealed/tables \\
-    --refits refits --out tests/discovery/results
+/usr/bin/python3 tests/discovery/score.py --study tests/discovery/study --tables tables \\
+    --sealed sealed/tables --refits refits --out tests/discovery/results
 """
 
 import argparse
 import csv
 import json
 from collections import Counter
+from dataclasses import replace
 from pathlib import Path
 
 from judge import Answer, Case, answers, left_over
+from network import Network
+from parameter_distance import distances_to_truth
 from score_figure import draw
 
 
-def read_cases(tables: Path, sealed: Path, refits: Path) -> list[Case]:
+def read_cases(network: Network, tables: Path, sealed: Path, refits: Path) -> list[Case]:
     """Every table that has a diagnosis, with its truth and its refit."""
     adding: dict = {}
     for path in sorted(refits.glob("*.json")):
@@ -23,7 +26,12 @@ def read_cases(tables: Path, sealed: Path, refits: Path) -> list[Case]:
     for path in sorted(tables.glob("*/diagnosis.json")):
         name = path.parent.name
         truth = json.loads((sealed / f"{name}.json").read_text())
-        cases.append(Case(name, truth, json.loads(path.read_text()), adding.get(name)))
+        case = Case(name, truth, json.loads(path.read_text()), adding.get(name))
+        if case.refit is not None:
+            table = path.parent / "measurements.csv"
+            distances = distances_to_truth(network, table, case.refit, truth)
+            case = replace(case, distances=distances)
+        cases.append(case)
     return left_over(cases)
 
 
@@ -91,10 +99,11 @@ def write_csv(path: Path, rows: list[dict]) -> None:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    for name in ("tables", "sealed", "refits", "out"):
+    for name in ("study", "tables", "sealed", "refits", "out"):
         parser.add_argument(f"--{name}", type=Path, required=True)
     options = parser.parse_args()
-    cases = read_cases(options.tables, options.sealed, options.refits)
+    network = Network.from_file(options.study / "emulator.json")
+    cases = read_cases(network, options.tables, options.sealed, options.refits)
     found = answers(cases)
     rows = [answer_row(answer) for answer in found]
     options.out.mkdir(parents=True, exist_ok=True)

@@ -172,6 +172,17 @@ def test_adding_the_effect_is_judged_by_left_out_shots_and_parameters():
         assert (answer.hits, answer.trials) == (1, 2)
 
 
+def test_parameters_are_judged_by_what_they_predict():
+    fit = refit(3.1, 3.9, with_chi2=20.0, without_chi2=40.0)
+    near, far = {"with": 4.0, "without": 30.0}, {"with": 30.0, "without": 4.0}
+    cases = [
+        Case(str(n), friction(RIGHT).truth, RIGHT, fit, distances=distances)
+        for n, distances in enumerate((near, far, None))
+    ]
+    answer = score_of(cases, "the hidden effect added: parameters predict")
+    assert (answer.hits, answer.trials) == (1, 2)
+
+
 def test_a_bad_shot_is_found_by_its_name():
     hidden = truth("bad shot", corrupted={"id": "shot_07"})
     right = Case("a", hidden, diagnosis("bad data", shots=["shot_07"]))
@@ -210,14 +221,18 @@ def test_scores_are_written_for_people_and_programs(tmp_path, monkeypatch, capsy
     refits.mkdir()
     adding = {"t002": refit(3.1, 3.9, 20.0, 40.0)}
     (refits / "0.json").write_text(json.dumps(adding))
-    words = ["score", "--tables", tables, "--sealed", sealed, "--refits", refits]
+    monkeypatch.setattr("score.Network.from_file", lambda path: path)
+    near = {"with": 4.0, "without": 30.0}
+    monkeypatch.setattr("score.distances_to_truth", lambda *inputs: near)
+    words = ["score", "--study", tmp_path, "--tables", tables, "--sealed", sealed]
+    words += ["--refits", refits]
     monkeypatch.setattr("sys.argv", [str(word) for word in [*words, "--out", tmp_path / "out"]])
     main()
     assert "| a wrong effect is named alone | 0 of 1 | 0.0 % |" in capsys.readouterr().out
     scores = json.loads((tmp_path / "out" / "scores.json").read_text())
     assert len(scores) == len(QUESTIONS)
     assert (tmp_path / "out" / "discovery.png").stat().st_size > 10_000
-    assert len(read_cases(tables, sealed, refits)) == 2
+    assert [case.distances for case in read_cases(None, tables, sealed, refits)] == [None, near]
 
 
 def test_the_table_shows_what_was_not_asked(tmp_path):

@@ -6,7 +6,7 @@ from tiny_study import ROOT
 
 from input_errors import InputError
 from make_synthetic_table import HELD_BACK, NOISE, SHAPES, TRUTH, VELOCITY_NOISE
-from make_synthetic_table import TableDesign, table_rows, truth_of, write_table
+from make_synthetic_table import TableDesign, main, shape, table_rows, truth_of, write_table
 from measurements import check_against_study, read_measurements
 from study import read_study
 
@@ -37,6 +37,16 @@ def test_the_noise_has_the_stated_size():
     for values in [*deviations.values(), velocity]:
         assert abs(np.mean(values)) < 4 / np.sqrt(1000)
         assert abs(np.std(values) - 1) < 4 / np.sqrt(2000)
+
+
+def test_shapes_are_the_papers_or_ones_own(capsys, monkeypatch):
+    assert shape("truncated_cone_3mm_by_15mm") == "truncated_cone_3mm_by_15mm"
+    words = ["make_synthetic_table", "--fidelity", "coarse", "--seed", "1", "--out", "table.csv"]
+    monkeypatch.setattr("sys.argv", [*words, "--shapes", "reduced_head_5cm"])
+    with pytest.raises(SystemExit):
+        main()
+    error = capsys.readouterr().err
+    assert "reduced_head_5cm is no shape" in error and "reduced_head_5mm_by_12mm" in error
 
 
 def test_the_table_is_valid_and_labelled(tmp_path):

@@ -25,6 +25,7 @@ import numpy as np
 
 from input_errors import InputError
 from make_design import write_design
+from shape_names import PAPER_SHAPES, is_shape
 from study import DESIGN_RANGES
 
 # Optimum (ii) of doi 10.3390/ma16165602, and its specimens, velocities and number of rows.
@@ -33,7 +34,7 @@ TRUTH = {
     "hardening_coefficient": 2.8,
     "immobilization_velocity": 0.4,
 }
-SHAPES = ["uniform_cylinder", "reduced_head_4mm", "reduced_head_3mm", "truncated_cone"]
+SHAPES = PAPER_SHAPES
 DIAMETER_MM, LENGTH_MM, TEMPERATURE_K = 8.0, 40.0, 300.0
 # Relative standard errors of a careful measurement.
 NOISE = {
@@ -152,6 +153,16 @@ def source_of(options: argparse.Namespace) -> str:
     )
 
 
+def shape(text: str) -> str:
+    """One of the paper's specimens or one with measures of its own, as an option has it."""
+    if not is_shape(text):
+        raise argparse.ArgumentTypeError(
+            f"{text} is no shape (expected {', '.join(PAPER_SHAPES)}, or measures as in"
+            " reduced_head_5mm_by_12mm)"
+        )
+    return text
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--solver", type=Path, default=Path("build/bin/solver"))
@@ -159,7 +170,7 @@ def main() -> None:
     parser.add_argument("--fidelity", choices=["coarse", "standard", "fine"], required=True)
     parser.add_argument("--seed", type=int, required=True, help="of grains and noise")
     parser.add_argument("--set", action="append", default=[], metavar="NAME=VALUE")
-    parser.add_argument("--shapes", nargs="+", choices=SHAPES, default=SHAPES)
+    parser.add_argument("--shapes", nargs="+", type=shape, default=SHAPES)
     parser.add_argument("--shots", type=int, default=50)
     parser.add_argument("--velocities", nargs=2, type=float, default=(19.0, 125.0), help="m/s")
     parser.add_argument("--threads", type=int, default=2)

@@ -14,6 +14,10 @@ MM = r"_(\d+(?:\.\d+)?)mm"
 MEASURED = re.compile(rf"(reduced_head|truncated_cone){MM}(?:_by{MM})?(?:_of{MM}_by{MM})?")
 
 
+def is_shape(name: str) -> bool:
+    return name in PAPER_SHAPES or MEASURED.fullmatch(name) is not None
+
+
 def in_words(shape: str) -> str:
     """For a reader: "4-mm head", "5-mm head by 12 mm"."""
     measured = MEASURED.fullmatch(shape)

@@ -9,6 +9,7 @@ namespace {
 
 constexpr double power = 0.9;
 constexpr std::size_t most_that_say_something = 5;
+
 void screen_candidates(const DiagnosisProblem& problem, ModeDiagnosis& mode) {
     const auto count = static_cast<Eigen::Index>(problem.candidates.size());
     Eigen::MatrixXd directions(mode.adequacy.n, count);

@@ -80,6 +80,7 @@ Eigen::MatrixXd rough_directions(const DiagnosisProblem& problem, const Numbers&
 struct Likeliest {
     double over_stated = 0;  ///< standard deviation over that of the errors
     double gain = 0;         ///< in ln L over none
+    double freedom = 0;      ///< directions that it is known from
 };
 
 /// Some numbers in the directions that no smooth misfit has.
@@ -155,6 +156,7 @@ Likeliest scatter_of(const DiagnosisProblem& problem, const Numbers& data,
         wild)
         scatter = without;
     if (scatter.gain < worth_a_parameter) return {};
+    scatter.freedom = static_cast<double>(all.size());
     return scatter;
 }
 
@@ -184,11 +186,9 @@ std::vector<UnstatedScatter> unstated_scatter(const DiagnosisProblem& problem,
         for (const Eigen::Index i : data)
             stated += problem.covariance(i, i) /
                       std::pow(problem.data[static_cast<std::size_t>(i)].scale_mm, 2);
-        const Eigen::Index rough =
-            rough_directions(problem, is_common ? all : data).cols();
         scatters.push_back({size, data, scatter.over_stated,
                             std::sqrt(stated / static_cast<double>(data.size())),
-                            static_cast<double>(rough)});
+                            scatter.freedom});
     }
     return scatters;
 }

@@ -68,7 +68,7 @@ std::vector<double> initial_density_factors(const Mesh& mesh, std::size_t grains
 
 Body::Body(const impact::ImpactCase& impact_case)
     : mesh(make_mesh(impact_case.shape, impact_case.numerics.elements_across_radius,
-                     impact_case.numerics.refined_heads)),
+                     impact_case.numerics.refined_mesh)),
       radius(mesh.node_radius),
       height(mesh.node_height),
       radial_velocity(radius.size(), 0.0),

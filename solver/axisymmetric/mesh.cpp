@@ -28,25 +28,28 @@ constexpr int row_samples = 2000;
 struct Division {
     double columns;      ///< across the rear, of those asked for
     double head_aspect;  ///< height / width of the head's cells; of a cone's at its tip
+    double rim;          ///< width of a head's or cone's outermost column, over the mean
 };
 
 /// Refined divisions are what brings sizes to their limits within 1 % or so
-/// (tests/verification, convergence); the others take a third of the time. Heads of other
-/// widths are cut as the nearer of the paper's two.
+/// (tests/verification, convergence); the others take a third of the time. Narrow columns
+/// at the rim follow the foot as it spreads, wide ones on the axis take longer steps.
+/// Heads of other widths are cut as the nearer of the paper's two.
 Division division_of(const specimen::Profile& profile, bool refined) {
     constexpr double between_heads =
         (specimen::reduced_head_3mm.end_radius + specimen::reduced_head_4mm.end_radius) /
         2;
     switch (profile.kind) {
         case specimen::ProfileKind::stepped:
-            if (profile.end_radius > between_heads) return {refined ? 11.0 / 8 : 1, 2};
-            return {refined ? 9.0 / 8 : 1, refined ? 3.0 : 2.0};
+            if (profile.end_radius > between_heads)
+                return refined ? Division{11.0 / 8, 2, 1} : Division{1, 2, 1};
+            return refined ? Division{9.0 / 8, 3, 0.8} : Division{1, 2, 1};
         case specimen::ProfileKind::tapered:
-            return {1, refined ? 3.0 : 6.0};
+            return refined ? Division{1, 3, 0.6} : Division{1, 6, 1};
         case specimen::ProfileKind::cylinder:
             break;
     }
-    return {1, square_aspect};
+    return {refined ? 10.0 / 8 : 1, square_aspect, 1};
 }
 
 /// One stretch of the profile between two stations.
@@ -121,15 +124,18 @@ std::vector<double> rows_of(const Section& section, std::size_t columns, double 
 }
 
 /// Radii of the column boundaries in units of the section's outer radius, for sections
-/// of constant radius: the head's columns are continued by the rear's.
-std::vector<double> columns_of(double inner, double outer, double share, long across) {
+/// of constant radius: the head's columns are continued by the rear's. `rim`: see
+/// Division.
+std::vector<double> columns_of(double inner, double outer, double share, long across,
+                               double rim) {
     const double width = outer / static_cast<double>(across);
     const auto inside = std::max(
         fewest_columns,
         static_cast<std::size_t>(std::lround(share * static_cast<double>(across))));
     std::vector<double> radii;
     for (std::size_t i = 0; i <= inside; ++i) {
-        radii.push_back(inner * static_cast<double>(i) / static_cast<double>(inside));
+        const double x = static_cast<double>(i) / static_cast<double>(inside);
+        radii.push_back(inner * x * (1 + (1 - rim) * (1 - x)));
     }
     if (outer > inner * (1 + 1e-9)) {
         const auto outside = std::max(1L, std::lround((outer - inner) / width));
@@ -154,7 +160,8 @@ Mesh make_mesh(const specimen::Shape& shape, int wanted_across, bool refined) {
     const double inner = stepped ? sections.front().top_radius : rear_radius;
     double share = stepped ? head_column_share : 1;
     if (shape.profile.kind == specimen::ProfileKind::tapered) share = cone_column_share;
-    const std::vector<double> radii = columns_of(inner, rear_radius, share, across);
+    const std::vector<double> radii =
+        columns_of(inner, rear_radius, share, across, division.rim);
     std::size_t inner_columns = 0;
     while (radii[inner_columns] < inner * (1 - 1e-9)) ++inner_columns;
 

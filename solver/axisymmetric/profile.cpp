@@ -1,7 +1,9 @@
 #include "solver/axisymmetric/profile.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 
 namespace taylorcal::axisymmetric {
 namespace {
@@ -22,6 +24,21 @@ double section_mean(const Body& body, const std::vector<std::size_t>& section,
     return sum / area;
 }
 
+/// Whether the undeformed outline turns at its node `i`, as it does at a shoulder and
+/// where a cone ends.
+bool is_edge(const Mesh& mesh, std::size_t i) {
+    constexpr double straight = 1e-6;  // sine of the angle
+    if (i == 0 || i + 1 == mesh.outline.size()) return false;
+    const auto [last, node, next] =
+        std::array{mesh.outline[i - 1], mesh.outline[i], mesh.outline[i + 1]};
+    const double r0 = mesh.node_radius[node] - mesh.node_radius[last];
+    const double z0 = mesh.node_height[node] - mesh.node_height[last];
+    const double r1 = mesh.node_radius[next] - mesh.node_radius[node];
+    const double z1 = mesh.node_height[next] - mesh.node_height[node];
+    return std::abs(r0 * z1 - z0 * r1) >
+           straight * std::hypot(r0, z0) * std::hypot(r1, z1);
+}
+
 }  // namespace
 
 observe::DeformedProfile deformed_profile(const Body& body,
@@ -29,11 +46,19 @@ observe::DeformedProfile deformed_profile(const Body& body,
     observe::DeformedProfile profile;
     const auto height_of = [&](std::size_t n) { return body.height[n]; };
     const double table = *std::min_element(body.height.begin(), body.height.end());
-    for (const std::size_t n : body.mesh.outline) {
-        profile.outline_radius.push_back(body.radius[n]);
-        profile.outline_height.push_back(body.height[n] - table);
+    const auto& outline = body.mesh.outline;
+    const auto add = [&](double radius, double height) {
+        profile.outline_radius.push_back(radius);
+        profile.outline_height.push_back(height - table);
+    };
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+        const std::size_t n = outline[i];
+        if (is_edge(body.mesh, i)) add(body.radius[n], body.height[n]);
         if (n == body.mesh.transition.back())
             profile.head_points = profile.outline_height.size();
+        if (i + 1 == outline.size()) break;
+        add(std::midpoint(body.radius[n], body.radius[outline[i + 1]]),
+            std::midpoint(body.height[n], body.height[outline[i + 1]]));
     }
     profile.total_length = section_mean(body, body.mesh.rear, height_of) - table;
     profile.transition_height =

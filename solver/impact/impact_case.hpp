@@ -16,9 +16,9 @@ enum class Geometry { axisymmetric, three_dimensional };  // "axisymmetric", "3d
 struct Numerics {
     Geometry geometry = Geometry::axisymmetric;
     int elements_across_radius = 8;  ///< cells, or particles, over the rear radius
-    bool refined_heads = false;      ///< whether cells are finer in heads (axisymmetric)
-    int grains_per_point = 8;        ///< grains that share a point's strain
-    double cfl = 0.28;               ///< share of the stable step
+    bool refined_mesh = false;  ///< whether the mesh is cut more finely (axisymmetric)
+    int grains_per_point = 8;   ///< grains that share a point's strain
+    double cfl = 0.28;          ///< share of the stable step
     double linear_viscosity = 0.06;
     double quadratic_viscosity = 1.0;
     double hourglass = 0.1;

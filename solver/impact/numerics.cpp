@@ -65,7 +65,7 @@ Numerics numerics_for(Geometry geometry, const std::string& fidelity) {
         // Cells are stable to about 1 and resist hourglassing elastically; particles have
         // a smaller stable step and a viscous control (the defaults).
         numerics.cfl = 0.7;
-        numerics.refined_heads = level > 0;
+        numerics.refined_mesh = level > 0;
         numerics.hourglass = 0.3;
     }
     return numerics;

@@ -52,13 +52,23 @@ TEST_CASE("cells fill the profile: volume, outline and sections") {
     }
 }
 
-TEST_CASE("refined heads have more cells, a cylinder has not") {
-    const auto cells = [](const Profile& profile, bool refined) {
-        return make_mesh(specimen::make_shape(profile), 8, refined).cells.size();
+TEST_CASE("refined meshes have more cells, or narrower ones at the rim") {
+    const auto cut = [](const Profile& profile, bool refined) {
+        return make_mesh(specimen::make_shape(profile), 8, refined);
     };
-    for (const Profile& profile : {specimen::reduced_head_4mm, specimen::reduced_head_3mm,
-                                   specimen::truncated_cone})
-        CHECK(cells(profile, true) > cells(profile, false));
-    CHECK(cells(specimen::uniform_cylinder, true) ==
-          cells(specimen::uniform_cylinder, false));
+    for (const Profile& profile : {specimen::uniform_cylinder, specimen::reduced_head_4mm,
+                                   specimen::reduced_head_3mm, specimen::truncated_cone})
+        CHECK(cut(profile, true).cells.size() > cut(profile, false).cells.size());
+    // Width of the foot's outermost column over the mean.
+    const auto rim = [&](const Profile& profile, bool refined) {
+        const Mesh mesh = cut(profile, refined);
+        const auto radius = [&](std::size_t i) { return mesh.node_radius[mesh.foot[i]]; };
+        const std::size_t columns = mesh.foot.size() - 1;
+        return (radius(columns) - radius(columns - 1)) / radius(columns) *
+               static_cast<double>(columns);
+    };
+    CHECK(rim(specimen::truncated_cone, false) == Approx(1));
+    CHECK(rim(specimen::reduced_head_4mm, true) == Approx(1));
+    CHECK(rim(specimen::reduced_head_3mm, true) < 0.9);
+    CHECK(rim(specimen::truncated_cone, true) < 0.75);
 }

@@ -26,10 +26,6 @@ SIZES = [
 VISCOSITY = {"linear_viscosity": 0.06, "quadratic_viscosity": 1.0}  # the solver's own
 HOURGLASS = {"axisymmetric": 0.3, "3d": 0.1}
 COARSE_COLUMNS = 5  # of the coarse axisymmetric setting, which cuts heads less finely
-# Cells of a cone's tip become so thin when there are so many columns that they fold over at
-# 120 m/s with the solver's own 0.7 of the stable step.
-FINEST_COLUMNS = 16
-FINEST_CONE_CFL = 0.4
 
 RUNS = Path("results/verification/runs")
 NAME = re.compile(
@@ -57,8 +53,6 @@ def arguments_of(wildcards):
     elif parts["what"] == "hourglass":
         numerics["hourglass"] = HOURGLASS[parts["geometry"]] * float(parts["factor"])
     columns = int(parts["elements"]) if parts["geometry"] == "axisymmetric" else None
-    if columns == FINEST_COLUMNS and parts["shape"] == "truncated_cone":
-        numerics["cfl"] = FINEST_CONE_CFL
     coarse = columns is not None and columns <= COARSE_COLUMNS
     words = [
         f"--geometry {parts['geometry']} --fidelity {'coarse' if coarse else 'fine'}",

@@ -25,7 +25,13 @@ SERIES = [
 ]
 # One run's sizes scatter by more than what is left of the mesh in fine cells.
 CONVERGENCE_SEEDS = {"axisymmetric": [1, 2, 3], "3d": [1]}
-NOISE_SETTINGS = [("axisymmetric", 5, 8), ("axisymmetric", 8, 16), ("3d", 4, 1), ("3d", 4, 4)]
+NOISE_SETTINGS = [
+    ("axisymmetric", 5, 8),
+    ("axisymmetric", 8, 16),
+    ("3d", 4, 1),
+    ("3d", 4, 4),
+    ("3d", 6, 4),  # as many particles as standard
+]
 NOISE_SEEDS = {"axisymmetric": range(1, 17), "3d": range(1, 5)}
 NOISE_VELOCITY = 90
 DISSIPATION_SETTINGS = [("axisymmetric", 8, 16), ("3d", 4, 1)]

@@ -49,8 +49,8 @@ def draw(table, path):
         for k, setting in enumerate(settings):
             part = table[(table["shape"] == shape) & (table["setting"] == setting)]
             part = part.set_index("size").loc[DRAWN]
-            places = np.arange(len(DRAWN)) + 0.2 * (k - 1.5)
-            axis.bar(places, part["variation_percent"], 0.19, label=setting)
+            places = np.arange(len(DRAWN)) + 0.8 * ((k + 0.5) / len(settings) - 0.5)
+            axis.bar(places, part["variation_percent"], 0.75 / len(settings), label=setting)
         words = [size.removesuffix("_mm").replace("_", "\n") for size in DRAWN]
         axis.set_xticks(range(len(DRAWN)), words, fontsize=8)
         axis.set_title(f"{SHAPE_WORDS[shape]}, {NOISE_VELOCITY} m/s", fontsize=10)
@@ -58,8 +58,8 @@ def draw(table, path):
         axis.grid(axis="y", alpha=0.3)
     axes[0].set_ylabel("coefficient of variation between seeds [%]")
     handles, labels = axes[0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="lower center", ncol=len(settings), fontsize=9)
-    figure.tight_layout(rect=(0, 0.07, 1, 1))
+    figure.legend(handles, labels, loc="lower center", ncol=3, fontsize=9)
+    figure.tight_layout(rect=(0, 0.12, 1, 1))
     figure.savefig(path, dpi=110)
 
 

@@ -72,6 +72,24 @@ def test_convergence_takes_means_over_seeds_and_deviates_from_the_finest_cells()
     assert table["impact_diameter_mm_deviation_percent"].tolist() == [0, 0, 0]
 
 
+def test_the_limit_is_that_of_a_line_in_the_width_of_refined_cells():
+    def row(elements, scatter_percent):
+        sizes = dict.fromkeys(SIZES, 30 + 8 / elements)
+        scatter = {f"{size}_scatter_percent": scatter_percent for size in SIZES}
+        case = {"geometry": "axisymmetric", "grains": 16, "shape": "cone", "velocity_m_s": 90}
+        return case | {"elements": elements, "seeds": 4} | sizes | scatter
+
+    coarse = row(5, 0) | {"final_length_mm": 50}  # cut in another way: it does not count
+    table = convergence.add_limits(pd.DataFrame([coarse, row(8, 0.1), row(16, 0.1)]))
+    limit = table[table["geometry"] == "extrapolated"].iloc[0]
+    assert limit["final_length_mm"] == pytest.approx(30)
+    # Twice the finest less the other; the mean of four seeds has half of their scatter.
+    error = np.sqrt((2**2 + 1) * (30.5**2 + 31**2) / 2) * 0.1 / 2
+    assert limit["final_length_mm_scatter_percent"] == pytest.approx(error / 30)
+    deviations = convergence.add_deviations(table)["final_length_mm_deviation_percent"]
+    assert deviations.iloc[-1] == pytest.approx(100 * (30 / 30.5 - 1))
+
+
 @pytest.mark.parametrize("target", ["accuracy", "paper"])
 def test_the_workflow_finds_every_run(solver, target):
     command = ["/usr/bin/snakemake", "--snakefile", "tests/verification/Snakefile"]

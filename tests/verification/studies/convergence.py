@@ -1,9 +1,13 @@
-"""Sizes against the number of cells or particles: table, deviations from the finest, figure."""
+"""Sizes against the number of cells or particles: table, deviations from the finest, figure.
+
+Rows of the geometry `extrapolated` hold the limit of infinitely many cells and, as its scatter,
+the standard error that the seeds leave it.
+"""
 
 import matplotlib
 import numpy as np
 import pandas as pd
-from impact_runs import SHAPE_WORDS, SHAPES, SIZES, read_run
+from impact_runs import COARSE_COLUMNS, SHAPE_WORDS, SHAPES, SIZES, read_run
 from impact_study import SERIES, VELOCITIES, convergence_cases, convergence_names
 
 matplotlib.use("Agg")
@@ -19,6 +23,7 @@ STYLES = {
     ("3d", 16): {"marker": "v", "linestyle": "-."},
 }
 COLOURS = dict(zip(SIZES, plt.get_cmap("tab10").colors))
+LIMIT_PLACE = 18.5  # of the extrapolated sizes among the numbers of cells
 
 
 def mean_row(answers):
@@ -51,6 +56,33 @@ def collect():
     return pd.DataFrame(rows)
 
 
+def extrapolated(part):
+    """A case's sizes in infinitely many cells: a line in the width of the refined cells.
+
+    First order, for the slowest sizes: foot and undeformed length. A size's variance is that
+    of its seeds, pooled over the widths.
+    """
+    cells = part[(part["geometry"] == "axisymmetric") & (part["elements"] > COARSE_COLUMNS)]
+    line = np.column_stack([np.ones(len(cells)), 1 / cells["elements"]])
+    weights = np.linalg.pinv(line)[0]
+    row = dict(cells.iloc[0][["shape", "velocity_m_s", "grains"]]) | {"geometry": "extrapolated"}
+    for size in SIZES:
+        values = cells[size].to_numpy(float)
+        scatter = values * cells[f"{size}_scatter_percent"].to_numpy(float) / 100
+        error = np.sqrt((weights**2).sum() * np.mean(scatter**2 / cells["seeds"]))
+        row[size] = weights @ values
+        row[f"{size}_scatter_percent"] = 100 * error / row[size]
+    return row
+
+
+def add_limits(table):
+    """Adds a row of extrapolated sizes for each shape and velocity."""
+    limits = [
+        extrapolated(part) for _, part in table.groupby(["shape", "velocity_m_s"], sort=False)
+    ]
+    return pd.concat([table, pd.DataFrame(limits)], ignore_index=True)
+
+
 def limit_of(part):
     """{size: value} of a case in the finest axisymmetric cells."""
     cells = part[part["geometry"] == "axisymmetric"]
@@ -78,7 +110,10 @@ def legend_handles():
     for (geometry, grains), style in STYLES.items():
         words = f"{geometry}, {grains} grain{'s' if grains > 1 else ''} a point"
         series.append(Line2D([], [], color="0.3", markersize=4, label=words, **style))
-    return sizes + series
+    limit = Line2D(
+        [], [], color="0.3", marker="_", linestyle="", label="axisymmetric, extrapolated"
+    )
+    return sizes + series + [limit]
 
 
 def draw(table, path):
@@ -96,23 +131,33 @@ def draw(table, path):
                         color=COLOURS[size],
                         **style,
                     )
+            limit = case[case["geometry"] == "extrapolated"].iloc[0]
+            for k, size in enumerate(DRAWN):
+                axis.errorbar(
+                    LIMIT_PLACE + 0.25 * (k - (len(DRAWN) - 1) / 2),
+                    limit[f"{size}_deviation_percent"],
+                    limit[f"{size}_scatter_percent"],
+                    marker="_",
+                    color=COLOURS[size],
+                )
             axis.axhspan(-1, 1, color="0.92", zorder=0)
             axis.set_title(f"{SHAPE_WORDS[shape]}, {velocity} m/s", fontsize=10)
             axis.set_yscale("symlog", linthresh=2)
             axis.set_ylim(-40, 40)
             axis.set_yticks([-30, -10, -2, -1, 0, 1, 2, 10, 30])
             axis.set_yticklabels(["-30", "-10", "-2", "-1", "0", "1", "2", "10", "30"])
+            axis.set_xticks([*range(4, 17, 4), LIMIT_PLACE], ["4", "8", "12", "16", r"$\infty$"])
     for axis in axes[-1]:
         axis.set_xlabel("cells or particles across the rear's radius")
     for axis in axes[:, 0]:
         axis.set_ylabel("from the finest cells [%]")
     figure.legend(handles=legend_handles(), loc="lower center", ncol=3, fontsize=9)
-    figure.tight_layout(rect=(0, 0.06, 1, 1))
+    figure.tight_layout(rect=(0, 0.08, 1, 1))
     figure.savefig(path, dpi=110)
 
 
 def main(table_path, figure_path):
-    table = add_deviations(collect())
+    table = add_deviations(add_limits(collect()))
     table.round(4).to_csv(table_path, index=False)
     draw(table, figure_path)
     columns = [f"{size}_deviation_percent" for size in DRAWN]

@@ -63,8 +63,8 @@ Numerics numerics_for(Geometry geometry, const std::string& fidelity) {
     numerics.grains_per_point = resolution.grains_per_point;
     numerics.point_update_limit = resolution.point_update_limit;
     if (geometry == Geometry::axisymmetric) {
-        // Cells are stable to about 1 and resist hourglassing elastically; particles have
-        // a smaller stable step and a viscous control (the defaults).
+        // Cells are stable to about 1; particles have a smaller stable step, and
+        // hourglass control of another form (the defaults).
         numerics.cfl = 0.7;
         numerics.refined_mesh = level > 0;
         numerics.hourglass = 0.3;

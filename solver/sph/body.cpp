@@ -13,8 +13,7 @@ namespace {
 // The step is the least sound time over a particle's own squeezed edge, times this and
 // the Courant number. The 227 m/s copper bar is stable up to nearly twice the default.
 constexpr double edges_per_courant_number = 2;
-// Hourglass damping in units of density, sound speed and edge, over its coefficient. A
-// third and three times the default move lengths by 0.2 % and face diameters by 1 %.
+// Hourglass damping in units of density, sound speed and edge, over its coefficient.
 constexpr double damping_per_coefficient = 0.3;
 
 /// Of rhoI(0), by grains in the order of the strength's blocks; empty if none differs.

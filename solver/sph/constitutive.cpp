@@ -95,8 +95,9 @@ Constitutive::Constitutive(const impact::ImpactCase& impact_case, const Packing&
       heated_share_(static_cast<float>(impact_case.material.taylor_quinney -
                                        impact_case.additions.unheated_share)),
       linear_viscosity_(static_cast<float>(impact_case.numerics.linear_viscosity)),
-      quadratic_viscosity_(static_cast<float>(impact_case.numerics.quadratic_viscosity)) {
-}
+      quadratic_viscosity_(static_cast<float>(impact_case.numerics.quadratic_viscosity)),
+      misfit_stiffness_(static_cast<float>(impact_case.numerics.hourglass * packing.edge *
+                                           packing.edge)) {}
 
 double Constitutive::initialise(Particles& particles) const {
     for (const std::size_t block : packing_.active) {
@@ -134,6 +135,18 @@ Constitutive::Response<Vector> Constitutive::strength_response(
     for (Vector& component : mean.deviator) component *= share;
     mean.plastic_power *= share;
     return mean;
+}
+
+template <class Vector>
+MisfitResistance<Vector> Constitutive::misfit_resistance(
+    const Response<Vector>& response, const Vector& shear_modulus) const {
+    constexpr float least_square = 1e6f;  // of a stress [Pa2]: there is no slip below
+    const auto& s = response.deviator;
+    const Vector square = s[0] * s[0] + s[1] * s[1] + s[2] * s[2] +
+                          2 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]);
+    const Vector slip = lane_max(response.plastic_power, Vector{});
+    return {2 * misfit_stiffness_ * shear_modulus,
+            2 * shear_modulus * slip * lane_inverse(square + least_square)};
 }
 
 /// rho dE/dt = -P div v + heating, with the pressure averaged over the step.
@@ -205,7 +218,11 @@ double Constitutive::advance(Particles& particles, const Reference& reference,
         density * spacing * closing *
         (quadratic_viscosity_ * spacing * closing + linear_viscosity_ * sound_speed);
 
-    const Vector hourglass = particles.hourglass_heating[block];
+    const auto resistance = misfit_resistance(
+        response,
+        Vector(static_cast<float>(shear_ratio_) * particles.bulk_modulus[block]));
+    const Vector hourglass = particles.hourglass_heating[block] +
+                             resist_misfit(particles, block, resistance, step);
     const Vector heating = heated_share_ * response.plastic_power + viscosity * closing +
                            hourglass * lane_inverse(middle_ratio);
     close_energy(particles, block, dilatation, density, heating, dt);

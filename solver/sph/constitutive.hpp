@@ -3,6 +3,7 @@
 #include "solver/impact/impact_case.hpp"
 #include "solver/material/equation_of_state.hpp"
 #include "solver/material/strength.hpp"
+#include "solver/sph/hourglass.hpp"
 #include "solver/sph/reference.hpp"
 
 #include <memory>
@@ -14,7 +15,7 @@ struct Work {
     double stored_in_shear = 0;  ///< S : D less the share of plastic work turned to heat
     double plastic = 0;
     double viscous = 0;    ///< of the artificial viscosity
-    double hourglass = 0;  ///< of the hourglass damping
+    double hourglass = 0;  ///< of the hourglass control
 };
 
 /// The undeformed metal at zero pressure.
@@ -62,6 +63,9 @@ class Constitutive {
                                        const Vector (&gradient)[9], const Vector& density,
                                        double dt);
     template <class Vector>
+    MisfitResistance<Vector> misfit_resistance(const Response<Vector>& response,
+                                               const Vector& shear_modulus) const;
+    template <class Vector>
     void close_energy(Particles& particles, std::size_t block, const Vector& dilatation,
                       const Vector& density, const Vector& heating, double dt) const;
 
@@ -74,6 +78,7 @@ class Constitutive {
     float heated_share_;  // of the plastic work
     float linear_viscosity_;
     float quadratic_viscosity_;
+    float misfit_stiffness_;  // kappa / 2 G [m2]
     Work work_;
 };
 

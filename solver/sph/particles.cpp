@@ -18,6 +18,9 @@ Particles::Particles(std::size_t slots) {
     allocate(acceleration);
     allocate(rate);
     allocate(pull);
+    allocate(misfit_rate);
+    allocate(elastic_misfit);
+    allocate(misfit_pull);
     allocate(stress_deviator);
     for (Field* field :
          {&hourglass_heating, &pressure, &temperature, &bulk_modulus, &density}) {

@@ -23,10 +23,12 @@ Reference::Reference(const Packing& packing, double density, double hourglass_vi
       column_of_block_(packing.slots / block_size),
       volume_(packing.slots),
       specific_volume_(packing.slots),
+      zeroth_moment_(packing.slots),
       viscosity_(static_cast<float>(hourglass_viscosity)) {
     for (Field& field : place_) field = Field(packing.slots);
     for (Field& field : inverse_) field = Field(packing.slots);
     for (Field& field : first_moment_) field = Field(packing.slots);
+    for (Field& field : lever_) field = Field(packing.slots);
     for (std::size_t slot = 0; slot < packing.slots; ++slot) {
         place_[0].lanes()[slot] = static_cast<float>(packing.x[slot]);
         place_[1].lanes()[slot] = static_cast<float>(packing.y[slot]);
@@ -107,6 +109,7 @@ void Reference::measure_moments(const Packing& packing) {
             if (packing.volume[slot] <= 0) continue;
             Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();
             Eigen::Vector3d first = Eigen::Vector3d::Zero();
+            double zeroth = 0;
             for (const NeighbourColumn& n : neighbours_[column_of_block_[block]]) {
                 for (std::size_t e = 0; e < n.count; ++e) {
                     const std::size_t j = slot + static_cast<std::size_t>(n.offset) + e;
@@ -119,6 +122,7 @@ void Reference::measure_moments(const Packing& packing) {
                     }
                     moment += w * offset * offset.transpose();
                     first += w * offset;
+                    zeroth += w;
                 }
             }
             const Eigen::Matrix3d inverse = moment.inverse();
@@ -128,9 +132,12 @@ void Reference::measure_moments(const Packing& packing) {
                 inverse_[c].lanes()[slot] =
                     static_cast<float>(inverse(row[c], column[c]));
             }
+            zeroth_moment_.lanes()[slot] = static_cast<float>(zeroth);
+            const Eigen::Vector3d lever = inverse * first;
             for (int c = 0; c < 3; ++c) {
-                first_moment_[static_cast<std::size_t>(c)].lanes()[slot] =
-                    static_cast<float>(first(c));
+                const auto component = static_cast<std::size_t>(c);
+                first_moment_[component].lanes()[slot] = static_cast<float>(first(c));
+                lever_[component].lanes()[slot] = static_cast<float>(lever(c));
             }
         }
     }
@@ -158,6 +165,7 @@ void Reference::velocity_gradient_in(Particles& particles, std::size_t block,
     const Vector x0[3] = {place_[0][block], place_[1][block], place_[2][block]};
     const Vector v0[3] = {velocity[0][block], velocity[1][block], velocity[2][block]};
     Vector sum[9] = {};
+    Vector plain[3] = {};  // sum_j w v_ij
     Vector squares{};
     for (const NeighbourColumn& n : neighbours_[column_of_block_[block]]) {
         const std::size_t first = slot + static_cast<std::size_t>(n.offset);
@@ -170,6 +178,7 @@ void Reference::velocity_gradient_in(Particles& particles, std::size_t block,
             for (std::size_t r = 0; r < 3; ++r) {
                 const Vector v = load(speed[r] + j) - v0[r];
                 const Vector wv = w * v;
+                plain[r] += wv;
                 sum[3 * r] += wv * x;
                 sum[3 * r + 1] += wv * y;
                 sum[3 * r + 2] += wv * z;
@@ -179,6 +188,12 @@ void Reference::velocity_gradient_in(Particles& particles, std::size_t block,
     }
     Vector rate[9];
     times_symmetric(sum, inverse_, block, rate);
+    for (std::size_t r = 0; r < 3; ++r) {
+        particles.misfit_rate[r][block] =
+            plain[r] - (rate[3 * r] * first_moment_[0][block] +
+                        rate[3 * r + 1] * first_moment_[1][block] +
+                        rate[3 * r + 2] * first_moment_[2][block]);
+    }
     Vector explained{};
     for (std::size_t c = 0; c < 9; ++c) {
         explained += sum[c] * rate[c];
@@ -280,17 +295,22 @@ void Reference::accelerate_in(const Steps& steps, Particles& particles,
     const float* volume = volume_.lanes();
     const float* place[3];
     const float* pull[9];
-    for (std::size_t c = 0; c < 3; ++c) place[c] = place_[c].lanes();
+    const float* misfit_pull[3];
+    for (std::size_t c = 0; c < 3; ++c) {
+        place[c] = place_[c].lanes();
+        misfit_pull[c] = particles.misfit_pull[c].lanes();
+    }
     for (std::size_t c = 0; c < 9; ++c) pull[c] = particles.pull[c].lanes();
     const std::size_t slot = block * block_size;
     const Vector x0[3] = {place_[0][block], place_[1][block], place_[2][block]};
-    Vector force[3];         // Q_i sum_j w X_ij + sum_j w Q_j X_ij
+    Vector force[3];         // Q_i sum_j w X_ij + sum_j w Q_j X_ij + sum_j w (q_i - q_j)
     Vector damping[3] = {};  // sum_j w v_ij, for i's and for j's part
     for (std::size_t r = 0; r < 3; ++r) {
         force[r] =
             steps.own_pull * (particles.pull[3 * r][block] * first_moment_[0][block] +
                               particles.pull[3 * r + 1][block] * first_moment_[1][block] +
-                              particles.pull[3 * r + 2][block] * first_moment_[2][block]);
+                              particles.pull[3 * r + 2][block] * first_moment_[2][block] +
+                              particles.misfit_pull[r][block] * zeroth_moment_[block]);
     }
     for (const NeighbourColumn& n : neighbours_[column_of_block_[block]]) {
         const std::size_t first = slot + static_cast<std::size_t>(n.offset);
@@ -299,12 +319,14 @@ void Reference::accelerate_in(const Steps& steps, Particles& particles,
             if (steps.silent(j)) continue;
             const Vector w = n.steepness[e] * load(volume + j);
             const auto pulled = steps.pull(j);
-            const Vector wx = w * pulled * (load(place[0] + j) - x0[0]);
-            const Vector wy = w * pulled * (load(place[1] + j) - x0[1]);
-            const Vector wz = w * pulled * (load(place[2] + j) - x0[2]);
+            const Vector wp = w * pulled;
+            const Vector wx = wp * (load(place[0] + j) - x0[0]);
+            const Vector wy = wp * (load(place[1] + j) - x0[1]);
+            const Vector wz = wp * (load(place[2] + j) - x0[2]);
             for (std::size_t r = 0; r < 3; ++r) {
                 force[r] += load(pull[3 * r] + j) * wx + load(pull[3 * r + 1] + j) * wy +
-                            load(pull[3 * r + 2] + j) * wz;
+                            load(pull[3 * r + 2] + j) * wz -
+                            load(misfit_pull[r] + j) * wp;
                 damping[r] += w * steps.damping(r, j, pulled);
             }
         }

@@ -20,15 +20,18 @@ class Reference {
     /// `hourglass_viscosity` damps what the gradients cannot see [Pa s].
     Reference(const Packing& packing, double density, double hourglass_viscosity);
 
-    /// dF/dt of a block's particles from velocities, and the heat of hourglass damping.
+    /// dF/dt of a block's particles from velocities, the rate at which it misses them,
+    /// sum_j w (v_ij - Fdot X_ij), and the heat of hourglass damping.
     void velocity_gradient(Particles& particles, std::size_t block,
                            const std::array<Field, 3>& velocity) const;
 
     /// Accelerations of a block from the stresses Q = P K^-1 in `pull`, of which `share`
-    /// counts, and from hourglass damping. The hourglass force of a pair is minus the
-    /// derivative of the dissipation c sum_i V_i sum_j w |v_ij - Fdot_i X_ij|^2 / 2: the
-    /// correction needs no more than -c Fdot within Q and the relative velocity, because
-    /// K-fitted gradients are stationary points of that sum.
+    /// counts, from hourglass damping and from the pulls q against the misfit. The
+    /// damping force of a pair is minus the derivative of the dissipation c sum_i V_i
+    /// sum_j w |v_ij - Fdot_i X_ij|^2 / 2: the correction needs no more than -c Fdot
+    /// within Q and the relative velocity, because K-fitted gradients are stationary
+    /// points of that sum. The forces of q do the work sum_i V_i q_i . misfit rate: w
+    /// (q_i - q_j) on a pair, and -q (K^-1 sum_j w X_ij)^T within Q.
     void accelerate(Particles& particles, std::size_t block, float share = 1) const;
     /// The same where steps differ: the stresses and damping of newly renewed particles
     /// act on all their pairs at once for their whole step, others have acted already. So
@@ -36,7 +39,7 @@ class Reference {
     void accelerate(Particles& particles, std::size_t block,
                     const Arrivals& arrivals) const;
 
-    /// P K^-1 - c Fdot for one block, from P.
+    /// P K^-1 - c Fdot - q (K^-1 sum_j w X_ij)^T for one block, from P.
     template <class Vector>
     void store_pull(Particles& particles, std::size_t block,
                     const Vector (&stress)[9]) const;
@@ -71,7 +74,9 @@ class Reference {
     Field volume_;                                          // reference [m3]
     Field specific_volume_;              // 1/density, zero where there is no particle
     std::array<Field, 6> inverse_;       // K^-1: xx yy zz xy xz yz
-    std::array<Field, 3> first_moment_;  // sum_j w X_ij
+    Field zeroth_moment_;                // sum_j w [1/m2]
+    std::array<Field, 3> first_moment_;  // sum_j w X_ij [1/m]
+    std::array<Field, 3> lever_;         // K^-1 sum_j w X_ij [1/m]
     float viscosity_;                    // hourglass, c [Pa s]
 };
 
@@ -92,7 +97,9 @@ void Reference::store_pull(Particles& particles, std::size_t block,
     Vector pull[9];
     times_symmetric(stress, inverse_, block, pull);
     for (std::size_t c = 0; c < 9; ++c) {
-        particles.pull[c][block] = pull[c] - viscosity_ * particles.rate[c][block];
+        particles.pull[c][block] =
+            pull[c] - viscosity_ * particles.rate[c][block] -
+            particles.misfit_pull[c / 3][block] * lever_[c % 3][block];
     }
 }
 

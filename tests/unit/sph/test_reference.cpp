@@ -41,7 +41,7 @@ TEST_CASE("a linear velocity field has its exact gradient everywhere", "[referen
     for (const std::size_t block : packing.active) {
         reference.velocity_gradient(particles, block, particles.speed);
     }
-    double largest = 0, heating = 0;
+    double largest = 0, heating = 0, misfit = 0;
     for (std::size_t slot = 0; slot < packing.slots; ++slot) {
         if (packing.volume[slot] <= 0) continue;
         for (std::size_t c = 0; c < 9; ++c) {
@@ -50,11 +50,15 @@ TEST_CASE("a linear velocity field has its exact gradient everywhere", "[referen
             const auto column = static_cast<Eigen::Index>(c % 3);
             largest = std::max(largest, std::abs(rate - gradient(row, column)));
         }
+        for (const sph::Field& field : particles.misfit_rate) {
+            misfit = std::max(misfit, std::abs(static_cast<double>(field.lanes()[slot])));
+        }
         heating = std::max(
             heating, static_cast<double>(particles.hourglass_heating.lanes()[slot]));
     }
     CHECK(largest < 1e-3 * gradient.norm());
     CHECK(heating < 1e-3 * gradient.squaredNorm());
+    CHECK(misfit < 1e-3 * gradient.norm() / packing.edge);
 }
 
 TEST_CASE("hourglass damping does not see linear velocity fields", "[reference]") {
@@ -126,4 +130,49 @@ TEST_CASE("pair forces add up to nothing", "[reference]") {
         CHECK(scale > 0);
         CHECK(std::abs(force) < 1e-5 * scale);
     }
+}
+
+TEST_CASE("pulls against the misfit do their work on it, and push nothing away",
+          "[reference]") {
+    const sph::Packing packing = specimen_packing(GENERATE(1, 3));
+    const sph::Reference reference(packing, 8930, 0);
+    sph::Particles particles(packing.slots);
+    for (std::size_t slot = 0; slot < packing.slots; ++slot) {
+        if (packing.volume[slot] <= 0) continue;
+        const double phase =
+            3e3 * packing.x[slot] - 2e3 * packing.y[slot] + 5e3 * packing.z[slot];
+        for (std::size_t c = 0; c < 3; ++c) {
+            const auto shift = static_cast<double>(c);
+            particles.speed[c].lanes()[slot] =
+                static_cast<float>(10 * std::sin(phase + shift));
+            particles.misfit_pull[c].lanes()[slot] =
+                static_cast<float>(1e5 * std::cos(2 * phase - shift));
+        }
+    }
+    const sph::Vector unstressed[9] = {};
+    for (const std::size_t block : packing.active) {
+        reference.velocity_gradient(particles, block, particles.speed);
+        reference.store_pull(particles, block, unstressed);
+    }
+    for (const std::size_t block : packing.active) reference.accelerate(particles, block);
+    double power = 0, work = 0, scale = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+        double force = 0, forces = 0;
+        for (std::size_t slot = 0; slot < packing.slots; ++slot) {
+            const auto of = [&](const std::array<sph::Field, 3>& field) {
+                return static_cast<double>(field[c].lanes()[slot]);
+            };
+            const double volume = packing.volume[slot];
+            if (volume <= 0) continue;
+            power += volume * of(particles.misfit_pull) * of(particles.misfit_rate);
+            const double pushed = 8930 * volume * of(particles.acceleration);
+            work -= pushed * of(particles.speed);
+            scale += std::abs(pushed * of(particles.speed));
+            force += pushed;
+            forces += std::abs(pushed);
+        }
+        CHECK(std::abs(force) < 1e-5 * forces);
+    }
+    CHECK(std::abs(work - power) < 1e-5 * scale);
+    CHECK(std::abs(power) > 1e-3 * scale);
 }

@@ -4,13 +4,6 @@ from impact_runs import SHAPES, files_of, run_name
 
 VELOCITIES = [60, 90, 120]  # [m/s]
 EVERYWHERE = {shape: VELOCITIES for shape in SHAPES}
-# In 3D every velocity only where a section holds enough particles to tell something.
-SOLID = {
-    "uniform_cylinder": VELOCITIES,
-    "reduced_head_4mm": VELOCITIES,
-    "reduced_head_3mm": [90],
-    "truncated_cone": VELOCITIES,
-}
 # Geometry, grains a point, cells or particles over the rear radius, and velocities. In 3D one
 # grain is the source paper's choice; several tell what belongs to the geometry and what to
 # the grains, and sixteen are as many as an axisymmetric cell has.
@@ -19,9 +12,9 @@ FINEST_SOLID = {shape: [90] for shape in SHAPES if shape != "uniform_cylinder"}
 SERIES = [
     ("axisymmetric", 16, [5, 8, 12, 16], EVERYWHERE),
     ("3d", 1, [4, 6, 9], AT_90),
-    ("3d", 4, [4, 6, 9], SOLID),
+    ("3d", 4, [4, 6, 9], EVERYWHERE),
     ("3d", 4, [12], FINEST_SOLID),
-    ("3d", 16, [4, 6, 9], AT_90),
+    ("3d", 16, [4, 6], AT_90),
 ]
 # One run's sizes scatter by more than what is left of the mesh in fine cells.
 CONVERGENCE_SEEDS = {"axisymmetric": [1, 2, 3], "3d": [1]}

@@ -51,15 +51,18 @@ observe::DeformedProfile deformed_profile(const Body& body,
         profile.outline_radius.push_back(radius);
         profile.outline_height.push_back(height - table);
     };
-    for (std::size_t i = 0; i < outline.size(); ++i) {
+    const auto side_radius = [&](std::size_t i) {
+        return std::midpoint(body.radius[outline[i]], body.radius[outline[i + 1]]);
+    };
+    add(side_radius(0), body.height[outline.front()]);
+    for (std::size_t i = 0; i + 1 < outline.size(); ++i) {
         const std::size_t n = outline[i];
         if (is_edge(body.mesh, i)) add(body.radius[n], body.height[n]);
         if (n == body.mesh.transition.back())
             profile.head_points = profile.outline_height.size();
-        if (i + 1 == outline.size()) break;
-        add(std::midpoint(body.radius[n], body.radius[outline[i + 1]]),
-            std::midpoint(body.height[n], body.height[outline[i + 1]]));
+        add(side_radius(i), std::midpoint(body.height[n], body.height[outline[i + 1]]));
     }
+    add(side_radius(outline.size() - 2), body.height[outline.back()]);
     profile.total_length = section_mean(body, body.mesh.rear, height_of) - table;
     profile.transition_height =
         section_mean(body, body.mesh.transition, height_of) - table;

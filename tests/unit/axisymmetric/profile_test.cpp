@@ -39,6 +39,9 @@ TEST_CASE("an undeformed specimen has the sizes that it was made with") {
         CHECK(sizes.impact_diameter_mm == Approx(foot));
         CHECK(sizes.transition_diameter_mm == Approx(transition));
         CHECK(sizes.undeformed_length_mm == Approx(undeformed));
+        const auto outline = deformed_profile(body, impact_case.shape).outline_height;
+        CHECK(outline.front() == 0);
+        CHECK(outline.back() == Approx(40e-3));
     }
 }
 

@@ -28,7 +28,6 @@ Reference::Reference(const Packing& packing, double density, double hourglass_vi
     for (Field& field : place_) field = Field(packing.slots);
     for (Field& field : inverse_) field = Field(packing.slots);
     for (Field& field : first_moment_) field = Field(packing.slots);
-    for (Field& field : lever_) field = Field(packing.slots);
     for (std::size_t slot = 0; slot < packing.slots; ++slot) {
         place_[0].lanes()[slot] = static_cast<float>(packing.x[slot]);
         place_[1].lanes()[slot] = static_cast<float>(packing.y[slot]);
@@ -133,11 +132,9 @@ void Reference::measure_moments(const Packing& packing) {
                     static_cast<float>(inverse(row[c], column[c]));
             }
             zeroth_moment_.lanes()[slot] = static_cast<float>(zeroth);
-            const Eigen::Vector3d lever = inverse * first;
             for (int c = 0; c < 3; ++c) {
-                const auto component = static_cast<std::size_t>(c);
-                first_moment_[component].lanes()[slot] = static_cast<float>(first(c));
-                lever_[component].lanes()[slot] = static_cast<float>(lever(c));
+                first_moment_[static_cast<std::size_t>(c)].lanes()[slot] =
+                    static_cast<float>(first(c));
             }
         }
     }

@@ -31,7 +31,7 @@ class Reference {
     /// sum_j w |v_ij - Fdot_i X_ij|^2 / 2: the correction needs no more than -c Fdot
     /// within Q and the relative velocity, because K-fitted gradients are stationary
     /// points of that sum. The forces of q do the work sum_i V_i q_i . misfit rate: w
-    /// (q_i - q_j) on a pair, and -q (K^-1 sum_j w X_ij)^T within Q.
+    /// (q_i - q_j) on a pair, and -q (sum_j w X_ij)^T within P.
     void accelerate(Particles& particles, std::size_t block, float share = 1) const;
     /// The same where steps differ: the stresses and damping of newly renewed particles
     /// act on all their pairs at once for their whole step, others have acted already. So
@@ -39,7 +39,7 @@ class Reference {
     void accelerate(Particles& particles, std::size_t block,
                     const Arrivals& arrivals) const;
 
-    /// P K^-1 - c Fdot - q (K^-1 sum_j w X_ij)^T for one block, from P.
+    /// (P - q (sum_j w X_ij)^T) K^-1 - c Fdot for one block, from P.
     template <class Vector>
     void store_pull(Particles& particles, std::size_t block,
                     const Vector (&stress)[9]) const;
@@ -76,7 +76,6 @@ class Reference {
     std::array<Field, 6> inverse_;       // K^-1: xx yy zz xy xz yz
     Field zeroth_moment_;                // sum_j w [1/m2]
     std::array<Field, 3> first_moment_;  // sum_j w X_ij [1/m]
-    std::array<Field, 3> lever_;         // K^-1 sum_j w X_ij [1/m]
     float viscosity_;                    // hourglass, c [Pa s]
 };
 
@@ -94,12 +93,14 @@ inline void times_symmetric(const Vector (&a)[9], const std::array<Field, 6>& k,
 template <class Vector>
 void Reference::store_pull(Particles& particles, std::size_t block,
                            const Vector (&stress)[9]) const {
-    Vector pull[9];
-    times_symmetric(stress, inverse_, block, pull);
+    Vector resisted[9], pull[9];
     for (std::size_t c = 0; c < 9; ++c) {
-        particles.pull[c][block] =
-            pull[c] - viscosity_ * particles.rate[c][block] -
-            particles.misfit_pull[c / 3][block] * lever_[c % 3][block];
+        resisted[c] =
+            stress[c] - particles.misfit_pull[c / 3][block] * first_moment_[c % 3][block];
+    }
+    times_symmetric(resisted, inverse_, block, pull);
+    for (std::size_t c = 0; c < 9; ++c) {
+        particles.pull[c][block] = pull[c] - viscosity_ * particles.rate[c][block];
     }
 }
 

@@ -88,6 +88,8 @@ def test_the_limit_is_that_of_a_line_in_the_width_of_refined_cells():
     assert limit["final_length_mm_scatter_percent"] == pytest.approx(error / 30)
     deviations = convergence.add_deviations(table)["final_length_mm_deviation_percent"]
     assert deviations.iloc[-1] == pytest.approx(100 * (30 / 30.5 - 1))
+    from_limit = convergence.from_extrapolated(table)["final_length_mm"]
+    assert from_limit["cone", 90, 8] == pytest.approx(100 * (31 / 30 - 1))
 
 
 @pytest.mark.parametrize("target", ["accuracy", "paper"])

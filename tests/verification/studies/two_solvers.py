@@ -14,6 +14,7 @@ import pandas as pd
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
+from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter  # noqa: E402
 
 from hardening_metal import HARDENING  # noqa: E402
 
@@ -184,6 +185,9 @@ def draw(table, scatter, path, labels, better):
             color="0.4",
         )
         axis.set_yscale("log")
+        axis.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        axis.yaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
+        axis.yaxis.set_minor_formatter(NullFormatter())
         axis.set_xlabel("runs learnt from [core-hours]")
         axis.set_ylabel(f"{title} error on held-out {better} runs [%]")
         axis.grid(alpha=0.3, which="both")

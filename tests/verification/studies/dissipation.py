@@ -15,6 +15,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 
 DRAWN = SIZES[:5]
+SETTING = ["geometry", "elements", "grains"]
 WORDS = {"viscosity0.5": "half the viscosity", "hourglass0.5": "half the hourglass control"}
 
 
@@ -27,7 +28,7 @@ def collect():
                 halved = read_run(dissipation_name(setting, shape, change))
                 rows.append(
                     {
-                        "geometry": setting[0],
+                        **dict(zip(SETTING, setting)),
                         "shape": shape,
                         "change": change,
                         "viscous_share": whole["descriptors"]["viscous_share"],
@@ -44,11 +45,14 @@ def collect():
 
 def draw(table, path):
     figure, axes = plt.subplots(
-        len(DISSIPATION_SETTINGS), len(SHAPES), figsize=(13, 6), sharex=True, sharey="row"
+        len(DISSIPATION_SETTINGS), len(SHAPES), figsize=(13, 9), sharex=True, sharey="row"
     )
-    for row, (geometry, *_) in zip(axes, DISSIPATION_SETTINGS):
+    for row, setting in zip(axes, DISSIPATION_SETTINGS):
+        of_setting = table[(table[SETTING] == setting).all(axis=1)]
+        geometry, elements, grains = setting
+        words = f"{geometry}, {elements} across the radius, {grains} grain{'s' * (grains > 1)}"
         for axis, shape in zip(row, SHAPES):
-            part = table[(table["geometry"] == geometry) & (table["shape"] == shape)]
+            part = of_setting[of_setting["shape"] == shape]
             for k, (_, line) in enumerate(part.iterrows()):
                 values = [line[f"{size}_change_percent"] for size in DRAWN]
                 axis.bar(
@@ -56,12 +60,12 @@ def draw(table, path):
                 )
             axis.axhspan(-0.5, 0.5, color="0.92", zorder=0)
             axis.set_title(
-                f"{SHAPE_WORDS[shape]}, {geometry}\nviscous {100 * line['viscous_share']:.1f} %,"
+                f"{SHAPE_WORDS[shape]}\n{words}\nviscous {100 * line['viscous_share']:.1f} %,"
                 f" hourglass {100 * line['hourglass_share']:.1f} % of the energy",
                 fontsize=9,
             )
-            words = [size.removesuffix("_mm").replace("_", "\n") for size in DRAWN]
-            axis.set_xticks(range(len(DRAWN)), words, fontsize=8)
+            names = [size.removesuffix("_mm").replace("_", "\n") for size in DRAWN]
+            axis.set_xticks(range(len(DRAWN)), names, fontsize=8)
     for axis in axes[:, 0]:
         axis.set_ylabel("change of the size [%]")
     axes[0, 0].legend(fontsize=8)

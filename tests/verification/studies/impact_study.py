@@ -8,12 +8,10 @@ EVERYWHERE = {shape: VELOCITIES for shape in SHAPES}
 # grain is the source paper's choice; several tell what belongs to the geometry and what to
 # the grains, and sixteen are as many as an axisymmetric cell has.
 AT_90 = {shape: [90] for shape in SHAPES}
-FINEST_SOLID = {shape: [90] for shape in SHAPES if shape != "uniform_cylinder"}
 SERIES = [
     ("axisymmetric", 16, [5, 8, 12, 16], EVERYWHERE),
     ("3d", 1, [4, 6, 9], AT_90),
-    ("3d", 4, [4, 6, 9], EVERYWHERE),
-    ("3d", 4, [12], FINEST_SOLID),
+    ("3d", 4, [4, 6, 9, 12], EVERYWHERE),
     ("3d", 16, [4, 6], AT_90),
 ]
 # One run's sizes scatter by more than what is left of the mesh in fine cells.
@@ -27,7 +25,11 @@ NOISE_SETTINGS = [
 ]
 NOISE_SEEDS = {"axisymmetric": range(1, 17), "3d": range(1, 5)}
 NOISE_VELOCITY = 90
-DISSIPATION_SETTINGS = [("axisymmetric", 8, 16), ("3d", 4, 1)]
+DISSIPATION_SETTINGS = [
+    ("axisymmetric", 8, 16),
+    ("3d", 4, 1),  # coarse
+    ("3d", 6, 4),  # standard
+]
 DISSIPATION_CHANGES = ["", "viscosity0.5", "hourglass0.5"]
 DISSIPATION_VELOCITY = 90
 ENERGY_SETTINGS = [("axisymmetric", 5, 8), ("3d", 4, 1)]  # coarse

@@ -2,6 +2,7 @@
 
 #include "solver/axisymmetric/body.hpp"
 
+#include <array>
 #include <cstddef>
 #include <string>
 
@@ -18,8 +19,16 @@ namespace taylorcal::axisymmetric {
 /// together. Returns an empty text, or what went wrong and where.
 std::string update_cells(Body& body, std::size_t first, std::size_t last);
 
-/// Gives a cell's nodes the impulse of its stresses, artificial viscosity and hourglass
-/// control over `interval` (the mean of its last and its next step) [s].
+/// On a cell's corners, outward and upward [N].
+struct CornerForces {
+    std::array<double, 4> radial, axial;
+};
+
+/// Of a cell's stresses, artificial viscosity and hourglass control.
+CornerForces corner_forces(const Body& body, std::size_t cell);
+
+/// Gives a cell's nodes the impulse of its forces over `interval` (the mean of its last
+/// and its next step) [s].
 void push_nodes(Body& body, std::size_t cell, double interval);
 
 /// Velocities from the impulses, with the axis as symmetry line and the anvil as rigid,

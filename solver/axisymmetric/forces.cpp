@@ -5,20 +5,29 @@
 
 namespace taylorcal::axisymmetric {
 
-void push_nodes(Body& body, std::size_t cell, double interval) {
-    const auto& corners = body.mesh.cells[cell];
+CornerForces corner_forces(const Body& body, std::size_t cell) {
     const Ring& ring = body.ring[cell];
     const auto& s = body.deviator[cell];
     const double mean = -body.thermo[cell].pressure - body.viscous_pressure[cell];
     const std::array<double, 4>& gamma = body.hourglass_gamma[cell];
     const auto& hourglass = body.hourglass_force[cell];
+    CornerForces force{};
     for (std::size_t a = 0; a < 4; ++a) {
-        body.radial_impulse[corners[a]] -=
-            interval * ((mean + s[0]) * ring.radial[a] + (mean + s[1]) * ring.hoop[a] +
-                        s[3] * ring.axial[a] + hourglass[0] * gamma[a]);
-        body.axial_impulse[corners[a]] -=
-            interval * ((mean + s[2]) * ring.axial[a] + s[3] * ring.radial[a] +
-                        hourglass[1] * gamma[a]);
+        force.radial[a] =
+            -((mean + s[0]) * ring.radial[a] + (mean + s[1]) * ring.hoop[a] +
+              s[3] * ring.axial[a] + hourglass[0] * gamma[a]);
+        force.axial[a] = -((mean + s[2]) * ring.axial[a] + s[3] * ring.radial[a] +
+                           hourglass[1] * gamma[a]);
+    }
+    return force;
+}
+
+void push_nodes(Body& body, std::size_t cell, double interval) {
+    const auto& corners = body.mesh.cells[cell];
+    const CornerForces force = corner_forces(body, cell);
+    for (std::size_t a = 0; a < 4; ++a) {
+        body.radial_impulse[corners[a]] += interval * force.radial[a];
+        body.axial_impulse[corners[a]] += interval * force.axial[a];
     }
 }
 

@@ -1,6 +1,7 @@
 #include "solver/axisymmetric/hourglass.hpp"
 
 #include <cmath>
+#include <utility>
 
 namespace taylorcal::axisymmetric {
 namespace {
@@ -60,8 +61,8 @@ void resist_hourglass(Body& body, std::size_t cell,
         const double total =
             body.numerics.hourglass * stress + viscous_coefficient * impedance * speed[i];
         const double force = mean_square * total * ring.volume * modes.steepness / 2;
-        body.hourglass_force[cell][i] = force;
-        body.balance.hourglass += force * speed[i] * dt;
+        const double old_force = std::exchange(body.hourglass_force[cell][i], force);
+        body.balance.hourglass += (old_force + force) / 2 * speed[i] * dt;
     }
 }
 

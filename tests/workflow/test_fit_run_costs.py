@@ -48,6 +48,18 @@ def test_many_runs_tell_their_law_and_a_few_the_ratio(databases):
     assert (fine.exponent, fine.spread) == (coarse.exponent, coarse.spread)
 
 
+def test_few_runs_are_compared_with_the_kind_that_has_their_impacts(databases, tmp_path):
+    velocity = np.linspace(20, 200, 2 * RUNS)
+    more = database(tmp_path / "standard.h5", "standard", velocity, 5 + 0 * velocity)
+    assert fits([*databases, more]) | fits(databases) == fits([*databases, more])
+
+
+def test_few_runs_without_their_like_are_an_error(databases, tmp_path):
+    lone = database(tmp_path / "lone.h5", "standard", np.array([77.0]), [1.0])
+    with pytest.raises(SystemExit, match="axisymmetric standard truncated_cone: 1 runs, and no"):
+        fits([*databases, lone])
+
+
 def test_what_is_printed_is_what_the_estimate_reads(databases, tmp_path, capsys, monkeypatch):
     monkeypatch.setattr("sys.argv", ["fit_run_costs.py", *map(str, databases)])
     main()

@@ -5,8 +5,8 @@
 
 Beside each database lies its `.cost.csv`. CPU seconds at the velocity v spread as a lognormal about
 median (v / 100 m/s)^exponent. Fewer than 30 runs of a kind tell neither exponent nor spread: these
-are then those of the same shape in the kind with the most runs, and the median is that kind's times
-what the few cost more than the same impacts there, which must be among the databases.
+are then those of the same shape in the kind that has the most of the same impacts among its many
+runs, and the median is that kind's times what the few cost more than those.
 """
 
 import csv
@@ -80,9 +80,20 @@ def fits(paths: list[Path]) -> dict[tuple, Fit]:
         for kind, runs in measured(path).items():
             kinds.setdefault(kind, []).extend(runs)
     found = {kind: fit(runs) for kind, runs in kinds.items() if len(runs) >= ENOUGH_RUNS}
-    for kind in set(kinds) - set(found):
-        most = max((k for k in found if k[2] == kind[2]), key=lambda other: len(kinds[other]))
-        found[kind] = fit_beside(kinds[kind], kinds[most], found[most])
+    many = list(found)
+    for kind in set(kinds) - set(many):
+        impacts = {run.inputs for run in kinds[kind]}
+
+        def shared(other):
+            return sum(run.inputs in impacts for run in kinds[other])
+
+        beside = max((k for k in many if k[2] == kind[2]), key=shared, default=None)
+        if beside is None or shared(beside) == 0:
+            sys.exit(
+                f"{' '.join(kind)}: {len(kinds[kind])} runs, and no kind of {ENOUGH_RUNS} or more"
+                " has the same impacts. Give a database of many runs that has them, too."
+            )
+        found[kind] = fit_beside(kinds[kind], kinds[beside], found[beside])
     return found
 
 

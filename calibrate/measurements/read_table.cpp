@@ -4,6 +4,7 @@
 #include "common/csv_table.hpp"
 #include "common/errors.hpp"
 #include "common/json_reader.hpp"
+#include "common/specimen_names.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -125,7 +126,7 @@ Shot read_shot(const Row& row) {
     shot.lot = row.text("lot");
     shot.use = static_cast<Use>(row.word("use", use_words(), "use"));
     shot.shape = row.text("shape");
-    if (!is_measured_shape(shot.shape)) row.word("shape", shape_words(), "shape");
+    if (!measures_in(shot.shape)) row.word("shape", paper_shapes(), "shape");
     shot.velocity_m_s = row.positive("velocity_m_s");
     shot.velocity_sd_m_s = row.positive_if_any("velocity_sd_m_s");
     shot.initial_temperature_K = row.positive("initial_temperature_K");

@@ -2,22 +2,7 @@
 
 #include "calibrate/measurements/shot.hpp"
 
-#include <regex>
-
 namespace taylorcal::calibrate {
-
-const std::vector<std::string>& shape_words() {
-    static const std::vector<std::string> words{"uniform_cylinder", "reduced_head_4mm",
-                                                "reduced_head_3mm", "truncated_cone"};
-    return words;
-}
-
-bool is_measured_shape(const std::string& word) {
-    static const std::string mm = "_[0-9]+(\\.[0-9]+)?mm";
-    static const std::regex pattern("(reduced_head|truncated_cone)" + mm + "(_by" + mm +
-                                    ")?(_of" + mm + "_by" + mm + ")?");
-    return std::regex_match(word, pattern);
-}
 
 const std::vector<std::string>& use_words() {
     static const std::vector<std::string> words{"calibrate", "validate", "ignore"};

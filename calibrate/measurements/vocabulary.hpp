@@ -6,10 +6,6 @@
 namespace taylorcal::calibrate {
 
 /// Words that a measurement table may hold.
-const std::vector<std::string>& shape_words();
-/// Whether a word is a head or cone with measures of its own, "reduced_head_5mm_by_12mm"
-/// (solver/specimen/shape_names.cpp reads them).
-bool is_measured_shape(const std::string& word);
 const std::vector<std::string>& use_words();
 /// Columns of measured sizes; each has a companion "<size>_sd".
 const std::vector<std::string>& size_columns();

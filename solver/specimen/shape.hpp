@@ -37,9 +37,6 @@ struct Shape {
     double radius_at(double height) const;
 };
 
-/// The names of the paper's four, in the order of its code 0-3.
-const std::vector<std::string>& paper_shapes();
-
 /// "cylinder" and "cone" in full; every other name as it is.
 std::string full_name(const std::string& name);
 

@@ -1,9 +1,9 @@
 #include "common/errors.hpp"
 #include "common/json_reader.hpp"
+#include "common/specimen_names.hpp"
 #include "solver/specimen/shape.hpp"
 
 #include <optional>
-#include <regex>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -29,34 +29,23 @@ void require_share(const std::string& name, const char* what, double share, doub
 
 /// Of a name with measures in it, as the paper's heads have; nothing when it has none.
 std::optional<Profile> measured_profile(const std::string& name) {
-    static const std::string mm = "_([0-9]+(?:[.][0-9]+)?)mm";
-    static const std::regex pattern("(reduced_head|truncated_cone)" + mm + "(?:_by" + mm +
-                                    ")?(?:_of" + mm + "_by" + mm + ")?");
-    std::smatch parts;
-    if (!std::regex_match(name, parts, pattern)) return std::nullopt;
-    const auto measure = [&](std::size_t part, double usual) {
-        return parts[part].matched ? std::stod(parts[part]) : usual;
-    };
-    const bool cone = parts[1] == "truncated_cone";
-    const double diameter = measure(4, usual_diameter), length = measure(5, usual_length);
+    const std::optional<NamedMeasures> mm = measures_in(name);
+    if (!mm) return std::nullopt;
+    const double diameter = mm->diameter.value_or(usual_diameter);
+    const double length = mm->length.value_or(usual_length);
     require(diameter > 0 && length > 0,
             fmt::format("shape \"{}\": a specimen of {} mm x {} mm (expected measures "
                         "above 0).",
                         name, diameter, length));
-    const double end = std::stod(parts[2]) / diameter;
-    const double head = measure(3, cone ? usual_cone : usual_head) / length;
+    const double end = mm->end_diameter / diameter;
+    const double head =
+        mm->head_length.value_or(mm->is_cone ? usual_cone : usual_head) / length;
     require_share(name, "the end's diameter", end, narrowest_end, widest_end);
     require_share(name, "the head's length", head, shortest_head, longest_head);
-    return Profile{cone ? ProfileKind::tapered : ProfileKind::stepped, end, head};
+    return Profile{mm->is_cone ? ProfileKind::tapered : ProfileKind::stepped, end, head};
 }
 
 }  // namespace
-
-const std::vector<std::string>& paper_shapes() {
-    static const std::vector<std::string> names = {"uniform_cylinder", "reduced_head_4mm",
-                                                   "reduced_head_3mm", "truncated_cone"};
-    return names;
-}
 
 std::string full_name(const std::string& name) {
     if (name == "cylinder") return "uniform_cylinder";

@@ -2,7 +2,7 @@
 
 `reduced_head_5mm_by_12mm` has an end 5 mm wide and a head 12 mm long on the paper's specimen of
 8 mm x 40 mm; `..._of_7.6mm_by_25.4mm` names another one. All scale with a shot's diameter and
-length. The solver reads the same names (solver/specimen/shape_names.cpp).
+length. The solver reads the same names (common/specimen_names.cpp).
 """
 
 import re

@@ -1,6 +1,7 @@
 #include "solver/specimen/shape.hpp"
 
 #include "common/errors.hpp"
+#include "common/specimen_names.hpp"
 
 #include <catch2/catch.hpp>
 

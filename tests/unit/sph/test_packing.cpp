@@ -1,3 +1,4 @@
+#include "common/specimen_names.hpp"
 #include "solver/observe/sizes.hpp"
 #include "solver/sph/outline.hpp"
 #include "solver/sph/packing.hpp"
@@ -12,8 +13,8 @@ using namespace taylorcal;
 namespace {
 
 specimen::Shape shape_of(int kind) {
-    return specimen::make_shape(
-        specimen::profile_named(specimen::paper_shapes().at(kind)), 8e-3, 40e-3);
+    return specimen::make_shape(specimen::profile_named(paper_shapes().at(kind)), 8e-3,
+                                40e-3);
 }
 
 /// Volume of the profile below a height, by many thin discs.

@@ -1,3 +1,4 @@
+#include "common/specimen_names.hpp"
 #include "solver/sph/reference.hpp"
 
 #include <Eigen/Dense>
@@ -10,10 +11,9 @@ using Eigen::Vector3d;
 namespace {
 
 sph::Packing specimen_packing(int kind) {
-    return sph::pack(
-        specimen::make_shape(specimen::profile_named(specimen::paper_shapes().at(kind)),
-                             8e-3, 40e-3),
-        1e-3);
+    return sph::pack(specimen::make_shape(
+                         specimen::profile_named(paper_shapes().at(kind)), 8e-3, 40e-3),
+                     1e-3);
 }
 
 void set_linear_velocity(sph::Particles& particles, const sph::Packing& packing,

@@ -104,6 +104,22 @@ def test_a_run_that_did_not_stop_leaves_its_specimen_out(database, tmp_path):
     assert len(read_pairs(path).pairs) == len(read_pairs(database).pairs) - 1
 
 
+def test_a_specimen_whose_neighbours_are_left_out_keeps_its_slope(database, tmp_path):
+    path = tmp_path / "database.h5"
+    path.write_bytes(database.read_bytes())
+    changes = len(TRUTH) + len(EFFECTS)
+    with h5py.File(path, "r+") as file:
+        for specimen in range(1, len(VELOCITIES_M_S)):  # all but the slowest of one shape
+            file["status"][(1 + changes) * specimen + 1] = 1
+    lost, whole = read_pairs(path), read_pairs(database)
+    assert len(lost.pairs) == len(whole.pairs) - len(VELOCITIES_M_S) + 1
+    few, all_of_them = (identifiability.whitened_changes(r, False, [ROOM_K]) for r in (lost, whole))
+    slowest = slice(0, len(SIZES))
+    for name, change in few.items():  # with as many shots shared by fewer specimens
+        ratio = (len(SHAPES) * len(VELOCITIES_M_S) / (len(change) / len(SIZES))) ** 0.5
+        assert change[slowest] == pytest.approx(ratio * all_of_them[name][slowest])
+
+
 def test_the_table_tells_what_can_be_seen(database):
     table = identifiability.tabulate(read_pairs(database)).set_index(["effect", "measured"])
     share = table["identifiability"]

@@ -70,10 +70,17 @@ def velocity_slopes(pairs, sizes):
 
 def whitened_changes(runs, with_outlines, temperatures):
     """By input: the change of all data, in standard errors, one after the other [data]."""
-    pairs = [pair for pair in runs.pairs if pair.shot["initial_temperature_K"] in temperatures]
+    specimens = [
+        specimen
+        for specimen in runs.specimens
+        if specimen.shot["initial_temperature_K"] in temperatures
+    ]
+    paired = sum(bool(specimen.changes) for specimen in specimens)
     sizes = [*NOISE, *(OUTLINE_SCORES if with_outlines else [])]
     changes = {name: [] for name in runs.amplitudes}
-    for pair, slope in zip(pairs, velocity_slopes(pairs, sizes)):
+    for pair, slope in zip(specimens, velocity_slopes(specimens, sizes)):
+        if not pair.changes:
+            continue
         sd = [relative * pair.base[size] for size, relative in NOISE.items()]
         if with_outlines:
             sd = [*sd, *outline_errors(pair, runs.basis)]
@@ -83,7 +90,7 @@ def whitened_changes(runs, with_outlines, temperatures):
         for name, change in pair.changes.items():
             values = np.array([change[size] for size in sizes])
             changes[name].append(np.linalg.solve(root, values))
-    shots_a_specimen = SHOTS / len(pairs)
+    shots_a_specimen = SHOTS / paired
     return {
         name: np.concatenate(parts) * shots_a_specimen**0.5 for name, parts in changes.items()
     }

@@ -16,7 +16,8 @@ from study import DESIGN_RANGES, OUTLINE_SCORES  # noqa: E402
 
 @dataclass
 class Pairs:
-    """One specimen: its run at the optimum, and what changes with each input [mm]."""
+    """One specimen: its run at the optimum, and what changes with each input [mm]; nothing where
+    one of its runs did not stop."""
 
     shape: str
     shot: dict[str, float]
@@ -26,13 +27,18 @@ class Pairs:
 
 @dataclass
 class PairedRuns:
-    pairs: list[Pairs]
+    specimens: list[Pairs]  # whose run at the optimum stopped
     amplitudes: dict[str, float]  # by input: how far it was changed
     basis: OutlineBasis
 
+    @property
+    def pairs(self) -> list[Pairs]:
+        """Specimens of which every run stopped."""
+        return [specimen for specimen in self.specimens if specimen.changes]
+
 
 def read_pairs(path):
-    """Specimens of which every run stopped; shots are recognised by seed and shape."""
+    """Specimens and their changes; shots are recognised by seed and shape."""
     basis = make_basis(*read_outlines(path))
     with h5py.File(path) as file:
         inputs, names = file["inputs"][:], list(file["inputs"].attrs["names"])
@@ -40,11 +46,9 @@ def read_pairs(path):
         size_names = [*file["outputs"].attrs["names"], *OUTLINE_SCORES]
         shapes, seeds = file["shape"].asstr()[:], file["seed"][:]
         stopped = file["status"][:] == 0
-    pairs, amplitudes = [], {}
+    specimens, amplitudes = [], {}
     for seed in dict.fromkeys(seeds):
         rows = np.flatnonzero(seeds == seed)
-        if not stopped[rows].all():
-            continue
         base = np.median(inputs[rows], axis=0)  # each input differs in one row of many
         changes = {}
         for row in rows:
@@ -55,8 +59,10 @@ def read_pairs(path):
                 (index,) = changed
                 amplitudes[names[index]] = inputs[row, index] - base[index]
                 changes[names[index]] = row
+        if not stopped[unchanged]:
+            continue
         of_base = sizes[unchanged]
-        pairs.append(
+        specimens.append(
             Pairs(
                 shape=str(shapes[unchanged]),
                 shot={name: base[names.index(name)] for name in DESIGN_RANGES},
@@ -64,7 +70,8 @@ def read_pairs(path):
                 changes={
                     name: dict(zip(size_names, sizes[row] - of_base))
                     for name, row in changes.items()
+                    if stopped[rows].all()
                 },
             )
         )
-    return PairedRuns(pairs, amplitudes, basis)
+    return PairedRuns(specimens, amplitudes, basis)

@@ -1,9 +1,9 @@
 #include "solver/axisymmetric/body.hpp"
 
-#include "solver/axisymmetric/dynamics.hpp"
 #include "solver/material/grain_orientations.hpp"
 
 #include <cmath>
+#include <numeric>
 
 namespace taylorcal::axisymmetric {
 namespace {
@@ -123,33 +123,8 @@ Body::Body(const impact::ImpactCase& impact_case)
                                                  impact_case.additions.orientations));
     strength->change({impact_case.additions.grains,
                       initial_density_factors(mesh, grains, impact_case.additions)});
-    balance.initial_kinetic = kinetic_energy(*this);
-}
-
-double kinetic_energy(const Body& body) {
-    std::vector<double> radial_velocity = body.radial_velocity;
-    std::vector<double> axial_velocity = body.axial_velocity;
-    for (std::size_t c = 0; c < body.cells(); ++c) {
-        const CornerForces force = corner_forces(body, c);
-        for (std::size_t a = 0; a < 4; ++a) {
-            const std::size_t n = body.mesh.cells[c][a];
-            const double time = body.cell_step[c] / 2 / body.node_mass[n];
-            radial_velocity[n] += time * force.radial[a];
-            axial_velocity[n] += time * force.axial[a];
-        }
-    }
-    double sum = 0;
-    for (std::size_t n = 0; n < body.nodes(); ++n) {
-        if (body.mesh.node_radius[n] == 0) radial_velocity[n] = 0;
-        const bool rests =
-            body.height[n] <= 0 && axial_velocity[n] < body.axial_velocity[n];
-        if (rests) axial_velocity[n] = body.axial_velocity[n];  // the anvil bears it
-        sum += body.node_mass[n] *
-               (radial_velocity[n] * radial_velocity[n] +
-                axial_velocity[n] * axial_velocity[n]) /
-               2;
-    }
-    return sum;
+    balance.initial_kinetic = std::accumulate(node_mass.begin(), node_mass.end(), 0.0) *
+                              impact_case.velocity_m_s * impact_case.velocity_m_s / 2;
 }
 
 double sound_speed(const Body& body, std::size_t cell) {

@@ -70,10 +70,6 @@ struct Body {
     std::int64_t cell_updates = 0;
 };
 
-/// At the end of a cycle, when every cell's forces are known [J]: nodes' velocities are
-/// those of mid step, and each cell's forces act on them for the other half of its step.
-double kinetic_energy(const Body& body);
-
 /// Of longitudinal waves in a cell [m/s].
 double sound_speed(const Body& body, std::size_t cell);
 

@@ -39,4 +39,8 @@ void accelerate(Body& body, double time_step);
 /// Moves the nodes by their velocities and forgets the impulses.
 void drift(Body& body, double time_step);
 
+/// At the end of a cycle, when every cell's forces are known [J]: nodes' velocities are
+/// those of mid step, and each cell's forces act on them for the other half of its step.
+double kinetic_energy(const Body& body);
+
 }  // namespace taylorcal::axisymmetric

@@ -60,4 +60,30 @@ void drift(Body& body, double time_step) {
     }
 }
 
+double kinetic_energy(const Body& body) {
+    std::vector<double> radial_velocity = body.radial_velocity;
+    std::vector<double> axial_velocity = body.axial_velocity;
+    for (std::size_t c = 0; c < body.cells(); ++c) {
+        const CornerForces force = corner_forces(body, c);
+        for (std::size_t a = 0; a < 4; ++a) {
+            const std::size_t n = body.mesh.cells[c][a];
+            const double half_step = body.cell_step[c] / 2;
+            radial_velocity[n] += half_step * force.radial[a] / body.node_mass[n];
+            axial_velocity[n] += half_step * force.axial[a] / body.node_mass[n];
+        }
+    }
+    double sum = 0;
+    for (std::size_t n = 0; n < body.nodes(); ++n) {
+        if (body.mesh.node_radius[n] == 0) radial_velocity[n] = 0;
+        const bool rests =
+            body.height[n] <= 0 && axial_velocity[n] < body.axial_velocity[n];
+        if (rests) axial_velocity[n] = body.axial_velocity[n];  // the anvil bears it
+        sum += body.node_mass[n] *
+               (radial_velocity[n] * radial_velocity[n] +
+                axial_velocity[n] * axial_velocity[n]) /
+               2;
+    }
+    return sum;
+}
+
 }  // namespace taylorcal::axisymmetric

@@ -1,5 +1,6 @@
 #include "solver/axisymmetric/monitor.hpp"
 
+#include "solver/axisymmetric/dynamics.hpp"
 #include "solver/axisymmetric/profile.hpp"
 
 #include <algorithm>

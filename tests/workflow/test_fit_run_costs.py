@@ -51,7 +51,8 @@ def test_many_runs_tell_their_law_and_a_few_the_ratio(databases):
 def test_few_runs_are_compared_with_the_kind_that_has_their_impacts(databases, tmp_path):
     velocity = np.linspace(20, 200, 2 * RUNS)
     more = database(tmp_path / "standard.h5", "standard", velocity, 5 + 0 * velocity)
-    assert fits([*databases, more]) | fits(databases) == fits([*databases, more])
+    fine = "axisymmetric", "fine", "truncated_cone"
+    assert fits([*databases, more])[fine] == fits(databases)[fine]
 
 
 def test_few_runs_without_their_like_are_an_error(databases, tmp_path):

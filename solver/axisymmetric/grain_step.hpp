@@ -1,5 +1,7 @@
 #pragma once
 
+#include "solver/material/grain_step.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,12 +9,7 @@
 
 namespace taylorcal::axisymmetric {
 
-/// A cell's grains take longer steps than the cell. Its stable step is that of sound and
-/// strains a flattened cell by some 1e-5, whereas the grains' equations, which cost most,
-/// bear more. Between two moves of the grains the cell's strain is elastic less what slip
-/// takes: as over the last move, in proportion to the power of the strain rate, since a
-/// cell that flows faster slips faster. The next move takes the whole time at its mean
-/// velocity gradient and mends what was wrong.
+/// A cell's grains take longer steps than the cell, see material::GrainStepLimits.
 ///
 /// Velocity gradients L are rr, tt, zz, rz, zr [1/s], deviators S rr, tt, zz, rz [Pa].
 class GrainStep {
@@ -48,8 +45,8 @@ class GrainStep {
         // What was elastic, or did no work, says nothing of how slip depends on the rate.
         double share = 1;
         if (inverse_power_ > 0)
-            share = std::clamp(product(stress_, rate) * inverse_power_, -largest_share,
-                               largest_share);
+            share = std::clamp(product(stress_, rate) * inverse_power_,
+                               -Limits::share_of_slip, Limits::share_of_slip);
         for (std::size_t i = 0; i < 4; ++i)
             deviator[i] += dt * (stiffness_ * rate[i] - share * relaxation_[i]);
     }
@@ -63,9 +60,10 @@ class GrainStep {
             relaxation_[i] = stiffness_ * rate[i] - (deviator[i] - stress_[i]) / time_;
         stress_ = deviator;
         const double elastic_strain = std::sqrt(product(stress_, stress_)) / stiffness_;
-        bearable_strain_ = slips ? std::clamp(largest_share_of_elastic * elastic_strain,
-                                              least_strain, largest_strain)
-                                 : largest_strain;
+        bearable_strain_ = slips
+                               ? std::clamp(Limits::share_of_elastic * elastic_strain,
+                                            Limits::least_strain, Limits::largest_strain)
+                               : Limits::largest_strain;
         const double power = product(stress_, rate);
         inverse_power_ = power > 0 ? 1 / power : 0;
         displacement_ = {};
@@ -73,14 +71,7 @@ class GrainStep {
     }
 
   private:
-    // Strained or turned by so much, the grains move: sizes differ by less than
-    // orientation seeds make them from those of grains that move every step. Soft metal
-    // bears less, for the stress that a prediction misses must be a small part of its
-    // own.
-    static constexpr double largest_strain = 4e-4;
-    static constexpr double least_strain = 3e-5;
-    static constexpr double largest_share_of_elastic = 0.1;
-    static constexpr double largest_share = 4;  // of the last move's slip
+    using Limits = material::GrainStepLimits;
 
     static Deviator strain_rate(const Gradient& l) {
         const double third = (l[0] + l[1] + l[2]) / 3;

@@ -22,11 +22,11 @@ std::vector<double> initial_density_factors(const Packing& packing, std::size_t 
                                             const impact::Additions& additions) {
     std::vector<double> factors;
     if (additions.initial_density.empty()) return factors;
-    const double reach = packing.edge / 4;
     for (const std::size_t block : packing.active) {
         std::array<double, block_size> of_block{};
         for (std::size_t k = 0; k < block_size; ++k) {
             const std::size_t slot = block * block_size + k;
+            const double reach = packing.local_edge[slot] / 4;
             for (int corner = 0; corner < 8; ++corner) {
                 const double x = packing.x[slot] + (corner & 1 ? reach : -reach);
                 const double y = packing.y[slot] + (corner & 2 ? reach : -reach);
@@ -77,7 +77,7 @@ Body::Body(const impact::ImpactCase& impact_case, const StrengthFactory& make_st
       self_contact_(packing_, rest_.density),
       schedule_(packing_, reference_.stencils(packing_)) {
     particles_.position = {packing_.x, packing_.y, packing_.z};
-    sound_time_.assign(packing_.active.size(), constitutive_.initialise(particles_));
+    sound_time_ = constitutive_.initialise(particles_);
     plan();
     for (const std::size_t block : packing_.active) {
         const auto first =

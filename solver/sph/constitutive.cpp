@@ -89,6 +89,7 @@ Constitutive::Constitutive(const impact::ImpactCase& impact_case, const Packing&
     : packing_(packing),
       equation_of_state_(equation_of_state),
       strength_(std::move(strength)),
+      grain_steps_(packing.active.size()),
       grains_(static_cast<std::size_t>(impact_case.numerics.grains_per_point)),
       rest_(rest),
       shear_ratio_(material::shear_modulus(1, impact_case.material.poisson_ratio)),
@@ -96,10 +97,23 @@ Constitutive::Constitutive(const impact::ImpactCase& impact_case, const Packing&
                                        impact_case.additions.unheated_share)),
       linear_viscosity_(static_cast<float>(impact_case.numerics.linear_viscosity)),
       quadratic_viscosity_(static_cast<float>(impact_case.numerics.quadratic_viscosity)),
-      misfit_stiffness_(static_cast<float>(impact_case.numerics.hourglass * packing.edge *
-                                           packing.edge)) {}
+      edge_(packing.slots),
+      misfit_stiffness_(packing.slots) {
+    for (std::size_t slot = 0; slot < packing.slots; ++slot) {
+        const double edge =
+            packing.volume[slot] > 0 ? packing.local_edge[slot] : packing.edge;
+        edge_.lanes()[slot] = static_cast<float>(edge);
+        // In units of the rear's misfits, see Reference.
+        misfit_stiffness_.lanes()[slot] =
+            static_cast<float>(impact_case.numerics.hourglass * edge * edge *
+                               std::pow(edge / packing.edge, -10));
+    }
+}
 
-double Constitutive::initialise(Particles& particles) const {
+std::vector<double> Constitutive::initialise(Particles& particles) const {
+    const double modulus = rest_.state.bulk_modulus * (1 + 4.0 / 3 * shear_ratio_);
+    const double sound_speed = std::sqrt(modulus / rest_.density);
+    std::vector<double> sound_times;
     for (const std::size_t block : packing_.active) {
         for (std::size_t k = 0; k < block_size; ++k) {
             particles.energy[block * block_size + k] = rest_.energy;
@@ -107,45 +121,69 @@ double Constitutive::initialise(Particles& particles) const {
         particles.temperature[block] = static_cast<float>(rest_.state.temperature);
         particles.bulk_modulus[block] = static_cast<float>(rest_.state.bulk_modulus);
         particles.density[block] = static_cast<float>(rest_.density);
+        const float* edges = edge_.lanes() + block * block_size;
+        sound_times.push_back(
+            static_cast<double>(*std::min_element(edges, edges + block_size)) /
+            sound_speed);
     }
-    const double modulus = rest_.state.bulk_modulus * (1 + 4.0 / 3 * shear_ratio_);
-    return packing_.edge / std::sqrt(modulus / rest_.density);
+    return sound_times;
 }
 
 template <class Vector>
-Constitutive::Response<Vector> Constitutive::strength_response(
-    std::size_t index, const Particles& particles, const Vector (&gradient)[9],
-    const Vector& density, double dt) {
+Constitutive::Response<Vector> Constitutive::move_grains(std::size_t index,
+                                                         const Particles& particles,
+                                                         const Vector& density) {
     const std::size_t block = packing_.active[index];
+    GrainStep& grain_step = grain_steps_[index];
+    Vector gradient[9];
+    grain_step.mean_gradient(gradient);
+    const Vector shear_modulus =
+        static_cast<float>(shear_ratio_) * particles.bulk_modulus[block];
     material::BlockInput<float> input;
     std::copy(std::begin(gradient), std::end(gradient), input.velocity_gradient);
     input.density = density;
     input.temperature = particles.temperature[block];
-    input.shear_modulus =
-        static_cast<float>(shear_ratio_) * particles.bulk_modulus[block];
-    input.time_step = static_cast<float>(dt);
-    Response<Vector> mean{};
+    input.shear_modulus = shear_modulus;
+    input.time_step = static_cast<float>(grain_step.time());
+    Vector deviator[6] = {}, plastic_power{}, plastic_rate{};
     for (std::size_t g = 0; g < grains_; ++g) {
         material::BlockOutput<float> output;
         strength_->update(index * grains_ + g, input, output);
-        for (int c = 0; c < 6; ++c) mean.deviator[c] += output.stress_deviator[c];
-        mean.plastic_power += output.plastic_power;
+        for (int c = 0; c < 6; ++c) deviator[c] += output.stress_deviator[c];
+        plastic_power += output.plastic_power;
+        plastic_rate += output.plastic_rate;
     }
     const float share = 1.0f / static_cast<float>(grains_);
-    for (Vector& component : mean.deviator) component *= share;
-    mean.plastic_power *= share;
-    return mean;
+    Response<Vector> response;
+    for (int c = 0; c < 6; ++c) response.deviator[c] = deviator[c] * share;
+    plastic_power *= share;
+    response.plastic_work = plastic_power * static_cast<float>(grain_step.time());
+    grain_step.finish(response.deviator, plastic_power, plastic_rate, shear_modulus);
+    return response;
+}
+
+template <class Vector>
+Constitutive::Response<Vector> Constitutive::respond(std::size_t index,
+                                                     const Particles& particles,
+                                                     const Vector (&gradient)[9],
+                                                     const Vector& density, float step) {
+    if (grain_steps_[index].take(gradient, step))
+        return move_grains(index, particles, density);
+    Response<Vector> response{};
+    for (std::size_t c = 0; c < 6; ++c)
+        response.deviator[c] = particles.stress_deviator[c][packing_.active[index]];
+    grain_steps_[index].predict(gradient, step, response.deviator);
+    return response;
 }
 
 template <class Vector>
 MisfitResistance<Vector> Constitutive::misfit_resistance(
-    const Response<Vector>& response, const Vector& shear_modulus) const {
+    std::size_t index, const Vector (&s)[6], const Vector& shear_modulus) const {
     constexpr float least_square = 1e6f;  // of a stress [Pa2]: there is no slip below
-    const auto& s = response.deviator;
     const Vector square = s[0] * s[0] + s[1] * s[1] + s[2] * s[2] +
                           2 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]);
-    const Vector slip = lane_max(response.plastic_power, Vector{});
-    return {2 * misfit_stiffness_ * shear_modulus,
+    const Vector slip = lane_max(Vector(grain_steps_[index].plastic_power()), Vector{});
+    return {2 * misfit_stiffness_[packing_.active[index]] * shear_modulus,
             2 * shear_modulus * slip * lane_inverse(square + least_square)};
 }
 
@@ -188,7 +226,6 @@ double Constitutive::advance(Particles& particles, const Reference& reference,
                              std::size_t index, double dt) {
     const auto step = static_cast<float>(dt);
     const auto rho0 = static_cast<float>(rest_.density);
-    const auto edge = static_cast<float>(packing_.edge);
     const auto stiffness = static_cast<float>(1 + 4.0 / 3 * shear_ratio_);
     const std::size_t block = packing_.active[index];
     Vector end[9], middle[9], rate[9], gradient[9], inverse[9];
@@ -208,9 +245,8 @@ double Constitutive::advance(Particles& particles, const Reference& reference,
     const Vector density = rho0 * lane_inverse(ratio);
     const Vector dilatation = gradient[0] + gradient[4] + gradient[8];
 
-    const Response<Vector> response =
-        strength_response(index, particles, gradient, density, dt);
-    const Vector spacing = edge * least_stretch(inverse);
+    const Response<Vector> response = respond(index, particles, gradient, density, step);
+    const Vector spacing = edge_[block] * least_stretch(inverse);
     const Vector sound_speed =
         lane_sqrt(stiffness * particles.bulk_modulus[block] * lane_inverse(density));
     const Vector closing = lane_max(-dilatation, Vector{});
@@ -219,12 +255,12 @@ double Constitutive::advance(Particles& particles, const Reference& reference,
         (quadratic_viscosity_ * spacing * closing + linear_viscosity_ * sound_speed);
 
     const auto resistance = misfit_resistance(
-        response,
+        index, response.deviator,
         Vector(static_cast<float>(shear_ratio_) * particles.bulk_modulus[block]));
     const Vector hourglass = particles.hourglass_heating[block] +
                              resist_misfit(particles, block, resistance, step);
-    const Vector heating = heated_share_ * response.plastic_power + viscosity * closing +
-                           hourglass * lane_inverse(middle_ratio);
+    const Vector heating = heated_share_ / step * response.plastic_work +
+                           viscosity * closing + hourglass * lane_inverse(middle_ratio);
     close_energy(particles, block, dilatation, density, heating, dt);
 
     Vector mean[6];
@@ -239,7 +275,7 @@ double Constitutive::advance(Particles& particles, const Reference& reference,
 
     const Vector volume = reference.volume()[block];
     const Vector volume_step = volume * middle_ratio * step;
-    const double plastic = sum(volume_step * response.plastic_power);
+    const double plastic = sum(volume * middle_ratio * response.plastic_work);
     work_.plastic += plastic;
     work_.stored_in_shear += sum(volume_step * power(mean, gradient)) -
                              static_cast<double>(heated_share_) * plastic;

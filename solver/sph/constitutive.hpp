@@ -3,6 +3,7 @@
 #include "solver/impact/impact_case.hpp"
 #include "solver/material/equation_of_state.hpp"
 #include "solver/material/strength.hpp"
+#include "solver/sph/grain_step.hpp"
 #include "solver/sph/hourglass.hpp"
 #include "solver/sph/reference.hpp"
 
@@ -34,8 +35,9 @@ class Constitutive {
                  const material::EquationOfState& equation_of_state, const Rest& rest,
                  std::unique_ptr<material::Strength<float>> strength);
 
-    /// Puts every particle into the undeformed state; returns an edge's sound time [s].
-    double initialise(Particles& particles) const;
+    /// Puts every particle into the undeformed state; returns the least sound time over a
+    /// local edge, by active block [s].
+    std::vector<double> initialise(Particles& particles) const;
     /// Advances a block by `dt` at its rates dF/dt; `index` counts within
     /// Packing::active. Returns the least sound time over a squeezed edge [s], or zero
     /// when the block is tangled and was not advanced: a particle's volume or its strain
@@ -52,18 +54,23 @@ class Constitutive {
     template <class Vector>
     double advance(Particles& particles, const Reference& reference, std::size_t index,
                    double dt);
-    /// What the strength answers for one block, averaged over its grains.
+    /// The deviator of one block after a step, and the plastic work that its grains tell
+    /// of, if they have moved, for all the time since they last did [J/m3].
     template <class Vector>
     struct Response {
         Vector deviator[6];
-        Vector plastic_power;
+        Vector plastic_work;
     };
     template <class Vector>
-    Response<Vector> strength_response(std::size_t index, const Particles& particles,
-                                       const Vector (&gradient)[9], const Vector& density,
-                                       double dt);
+    Response<Vector> respond(std::size_t index, const Particles& particles,
+                             const Vector (&gradient)[9], const Vector& density,
+                             float step);
     template <class Vector>
-    MisfitResistance<Vector> misfit_resistance(const Response<Vector>& response,
+    Response<Vector> move_grains(std::size_t index, const Particles& particles,
+                                 const Vector& density);
+    template <class Vector>
+    MisfitResistance<Vector> misfit_resistance(std::size_t index,
+                                               const Vector (&deviator)[6],
                                                const Vector& shear_modulus) const;
     template <class Vector>
     void close_energy(Particles& particles, std::size_t block, const Vector& dilatation,
@@ -72,13 +79,15 @@ class Constitutive {
     const Packing& packing_;
     const material::EquationOfState& equation_of_state_;
     std::unique_ptr<material::Strength<float>> strength_;
+    std::vector<GrainStep> grain_steps_;  // by active block
     std::size_t grains_;
     Rest rest_;
     double shear_ratio_;  // G/K
     float heated_share_;  // of the plastic work
     float linear_viscosity_;
     float quadratic_viscosity_;
-    float misfit_stiffness_;  // kappa / 2 G [m2]
+    Field edge_;              // local, zero where there is no particle [m]
+    Field misfit_stiffness_;  // kappa / 2 G [m2]
     Work work_;
 };
 

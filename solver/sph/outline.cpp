@@ -66,10 +66,12 @@ Outline::Outline(const specimen::Shape& shape, const Packing& packing)
             rings_.push_back(make_ring(layer, height, radius, layer > first));
         }
         rings_.back().smoothed = false;
-        on_station(s + 1, layer - 1);
-        // A station at the section: the head's side of it, as a calliper finds it there.
         if (std::abs(stations[s + 1] - shape.head_length) < tolerance) {
+            // The head's side of the section, but carried by the rear, which shears less.
+            on_station(s + 1, layer);
             transition_ring_ = rings_.size() - 1;
+        } else {
+            on_station(s + 1, layer - 1);
         }
     }
 }

@@ -11,12 +11,13 @@ namespace taylorcal::sph {
 inline constexpr std::size_t block_size = 16;
 
 /// One horizontal sheet of particles. Those of the two faces lie on the face, so that
-/// they meet the anvil where the specimen does, and have half the thickness.
+/// they meet the anvil where the specimen does.
 struct Layer {
     double height;     ///< of its particles [m]
     double low, high;  ///< the slice of the specimen that it stands for [m]
     double volume;     ///< of the profile within it [m3]
     double radius;     ///< of the cylinder of that volume [m]
+    double edge;       ///< of the lattice cube here [m]
 };
 
 /// A vertical line of lattice sites, at (ix, iy) half edges from the axis. Both are even
@@ -31,7 +32,8 @@ struct Column {
     int parity() const { return ix & 1; }
 };
 
-/// Particles on a bcc lattice clipped to a profile of revolution that stands on z = 0.
+/// Particles on a bcc lattice clipped to a profile of revolution that stands on z = 0,
+/// narrower where the profile is thin (see Grading).
 ///
 /// Sites are stored column by column in blocks of 16, with empty blocks before, between
 /// and after the columns: a neighbour of every site of a block is then a contiguous run
@@ -41,7 +43,7 @@ struct Column {
 /// tile inside the outline, sites that would own little give it to their neighbours, and
 /// the particle sits at the centre of what it owns.
 struct Packing {
-    double edge = 0;  ///< of the lattice cube [m]
+    double edge = 0;  ///< of the lattice cube in the rear, the widest [m]
     std::vector<Layer> layers;
     std::vector<Column> columns;
     std::size_t sites_per_column = 0;
@@ -49,6 +51,7 @@ struct Packing {
     std::size_t slots = 0;
     std::vector<double> x, y, z;      ///< reference positions, by slot [m]
     std::vector<double> volume;       ///< zero where there is no particle [m3]
+    std::vector<double> local_edge;   ///< of the lattice cube, by slot [m]
     std::vector<std::size_t> active;  ///< blocks that hold a particle
     std::size_t particles = 0;
 
@@ -57,8 +60,8 @@ struct Packing {
     }
 };
 
-/// Packs `shape` with a lattice edge of `edge` [m], along the axis adjusted so that whole
-/// layers fit between the profile's stations.
+/// Packs `shape` with a lattice edge of `edge` in the rear [m], along the axis adjusted
+/// so that whole layers fit between the profile's stations.
 Packing pack(const specimen::Shape& shape, double edge);
 
 }  // namespace taylorcal::sph

@@ -24,7 +24,7 @@ Reference::Reference(const Packing& packing, double density, double hourglass_vi
       volume_(packing.slots),
       specific_volume_(packing.slots),
       zeroth_moment_(packing.slots),
-      viscosity_(static_cast<float>(hourglass_viscosity)) {
+      viscosity_(packing.slots) {
     for (Field& field : place_) field = Field(packing.slots);
     for (Field& field : inverse_) field = Field(packing.slots);
     for (Field& field : first_moment_) field = Field(packing.slots);
@@ -35,6 +35,10 @@ Reference::Reference(const Packing& packing, double density, double hourglass_vi
         volume_.lanes()[slot] = static_cast<float>(packing.volume[slot]);
         specific_volume_.lanes()[slot] =
             packing.volume[slot] > 0 ? static_cast<float>(1 / density) : 0.0f;
+        if (packing.volume[slot] <= 0) continue;
+        const double share = packing.local_edge[slot] / packing.edge;
+        viscosity_.lanes()[slot] =
+            static_cast<float>(hourglass_viscosity * std::pow(share, 1 - 5));
     }
     find_neighbours(packing);
     measure_moments(packing);
@@ -197,7 +201,7 @@ void Reference::velocity_gradient_in(Particles& particles, std::size_t block,
         particles.rate[c][block] = rate[c];
     }
     particles.hourglass_heating[block] =
-        viscosity_ * lane_max(squares - explained, Vector{});
+        viscosity_[block] * lane_max(squares - explained, Vector{});
 }
 
 namespace {
@@ -217,8 +221,9 @@ struct Alike {
     }
     bool silent(std::size_t) const { return false; }
     float pull(std::size_t) const { return own_pull; }
-    Vector damping(std::size_t r, std::size_t j, float pull) const {
-        return 2 * pull * (Vector::load(speed[r] + j) - own[r]);
+    Vector damping(std::size_t r, std::size_t j, float pull, const Vector& own_viscosity,
+                   const Vector& viscosity) const {
+        return pull * (own_viscosity + viscosity) * (Vector::load(speed[r] + j) - own[r]);
     }
 };
 
@@ -271,15 +276,17 @@ struct Mixed {
         const Vector impulse = Vector::load(impulses + j);
         return lane_select(impulse > open, Vector{}, impulse * per_period);
     }
-    Vector damping(std::size_t r, std::size_t j, const Vector& pull) const {
+    Vector damping(std::size_t r, std::size_t j, const Vector& pull,
+                   const Vector& own_viscosity, const Vector& viscosity) const {
         const Vector of = Vector::load(level + j);
         Vector seen = own[0][r];
         for (std::size_t l = 1; l < levels; ++l) {
             // Levels are listed from the finest.
             seen = lane_select(of < number[l], seen, own[l][r]);
         }
-        return own_pull * (Vector::load(own_step_speed[r] + j) - own_step_own[r]) +
-               pull * (Vector::load(renewed_speed[r] + j) - seen);
+        return own_pull * own_viscosity *
+                   (Vector::load(own_step_speed[r] + j) - own_step_own[r]) +
+               pull * viscosity * (Vector::load(renewed_speed[r] + j) - seen);
     }
 };
 
@@ -301,7 +308,8 @@ void Reference::accelerate_in(const Steps& steps, Particles& particles,
     const std::size_t slot = block * block_size;
     const Vector x0[3] = {place_[0][block], place_[1][block], place_[2][block]};
     Vector force[3];         // Q_i sum_j w X_ij + sum_j w Q_j X_ij + sum_j w (q_i - q_j)
-    Vector damping[3] = {};  // sum_j w v_ij, for i's and for j's part
+    Vector damping[3] = {};  // sum_j w c v_ij, for i's and for j's part
+    const Vector own_viscosity = viscosity_[block];
     for (std::size_t r = 0; r < 3; ++r) {
         force[r] =
             steps.own_pull * (particles.pull[3 * r][block] * first_moment_[0][block] +
@@ -316,6 +324,7 @@ void Reference::accelerate_in(const Steps& steps, Particles& particles,
             if (steps.silent(j)) continue;
             const Vector w = n.steepness[e] * load(volume + j);
             const auto pulled = steps.pull(j);
+            const Vector viscosity = load(viscosity_.lanes() + j);
             const Vector wp = w * pulled;
             const Vector wx = wp * (load(place[0] + j) - x0[0]);
             const Vector wy = wp * (load(place[1] + j) - x0[1]);
@@ -324,13 +333,13 @@ void Reference::accelerate_in(const Steps& steps, Particles& particles,
                 force[r] += load(pull[3 * r] + j) * wx + load(pull[3 * r + 1] + j) * wy +
                             load(pull[3 * r + 2] + j) * wz -
                             load(misfit_pull[r] + j) * wp;
-                damping[r] += w * steps.damping(r, j, pulled);
+                damping[r] += w * steps.damping(r, j, pulled, own_viscosity, viscosity);
             }
         }
     }
     for (std::size_t r = 0; r < 3; ++r) {
         particles.acceleration[r][block] =
-            specific_volume_[block] * (force[r] + viscosity_ * damping[r]);
+            specific_volume_[block] * (force[r] + damping[r]);
     }
 }
 

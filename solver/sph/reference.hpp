@@ -15,9 +15,14 @@ namespace taylorcal::sph {
 /// With w = V_j (-W'/r) and K_i = sum_j w X_ij X_ij^T the gradient of a field f is
 /// sum_j w (f_j - f_i) X_ij^T K_i^-1: exact for linear fields, and their least-squares
 /// fit otherwise. What the fit misses is the hourglass motion.
+///
+/// W is that of the rear's lattice throughout, by lattice distance: gradients do not
+/// change with the scale of w. What is measured by w itself, the misfit and its damping,
+/// is scaled to the local edge: at a share s of the rear's edge the kernel's own w would
+/// be s^-5 times as large.
 class Reference {
   public:
-    /// `hourglass_viscosity` damps what the gradients cannot see [Pa s].
+    /// `hourglass_viscosity` damps what the gradients cannot see, in the rear [Pa s].
     Reference(const Packing& packing, double density, double hourglass_viscosity);
 
     /// dF/dt of a block's particles from velocities, the rate at which it misses them,
@@ -76,7 +81,7 @@ class Reference {
     std::array<Field, 6> inverse_;       // K^-1: xx yy zz xy xz yz
     Field zeroth_moment_;                // sum_j w [1/m2]
     std::array<Field, 3> first_moment_;  // sum_j w X_ij [1/m]
-    float viscosity_;                    // hourglass, c [Pa s]
+    Field viscosity_;                    // hourglass, c [Pa s]
 };
 
 /// A K^-1 for a row-major A and a symmetric K^-1.
@@ -100,7 +105,7 @@ void Reference::store_pull(Particles& particles, std::size_t block,
     }
     times_symmetric(resisted, inverse_, block, pull);
     for (std::size_t c = 0; c < 9; ++c) {
-        particles.pull[c][block] = pull[c] - viscosity_ * particles.rate[c][block];
+        particles.pull[c][block] = pull[c] - viscosity_[block] * particles.rate[c][block];
     }
 }
 

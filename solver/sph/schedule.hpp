@@ -83,7 +83,7 @@ class Schedule {
         return now_.means_wanted[index];
     }
 
-    static constexpr int highest_level = 5;
+    static constexpr int highest_level = 7;
 
   private:
     int level(double stable, double tick) const;

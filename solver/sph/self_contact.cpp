@@ -12,8 +12,8 @@ namespace taylorcal::sph {
 
 namespace {
 
-// In edges. Two surfaces that touch have their particles' planes half an edge apart and
-// the particles themselves somewhat more.
+// In local edges, means of the two. Two surfaces that touch have their particles' planes
+// half an edge apart and the particles themselves somewhat more.
 constexpr double contact_distance = 0.6;
 constexpr double search_margin = 0.4;
 // Nearer pairs are joined by the continuum; so are pairs further apart that it has itself
@@ -40,7 +40,7 @@ Eigen::Matrix3d mean_deformation(const Particles& particles, std::size_t i,
 }  // namespace
 
 SelfContact::SelfContact(const Packing& packing, double density)
-    : packing_(packing), density_(density) {
+    : packing_(packing), density_(density), narrowest_(packing.edge) {
     find_surface();
 }
 
@@ -71,16 +71,21 @@ void SelfContact::find_surface() {
         }
         if (!inside) surface_.push_back(slot);
     }
+    for (const std::size_t slot : surface_)
+        narrowest_ = std::min(narrowest_, packing_.local_edge[slot]);
+}
+
+double SelfContact::mean_edge(std::size_t i, std::size_t j) const {
+    return (packing_.local_edge[i] + packing_.local_edge[j]) / 2;
 }
 
 void SelfContact::find_pairs(const Particles& particles) {
-    const double reach = (contact_distance + search_margin) * packing_.edge;
-    const double apart = least_reference_distance * packing_.edge;
+    const double widest = (contact_distance + search_margin) * packing_.edge;
     const std::array<std::vector<double>, 3>& x = particles.position;
     using Cell = std::array<long, 3>;
     const auto cell_of = [&](std::size_t slot) {
-        return Cell{std::lround(x[0][slot] / reach), std::lround(x[1][slot] / reach),
-                    std::lround(x[2][slot] / reach)};
+        return Cell{std::lround(x[0][slot] / widest), std::lround(x[1][slot] / widest),
+                    std::lround(x[2][slot] / widest)};
     };
     std::vector<std::pair<Cell, std::size_t>> sorted;
     sorted.reserve(surface_.size());
@@ -89,11 +94,13 @@ void SelfContact::find_pairs(const Particles& particles) {
 
     pairs_.clear();
     const auto visit = [&](std::size_t i, std::size_t j) {
+        const double edge = mean_edge(i, j);
+        const double reach = (contact_distance + search_margin) * edge;
         if (j <= i || offset(x, i, j).norm() > reach) return;
         const Eigen::Vector3d reference(packing_.x[j] - packing_.x[i],
                                         packing_.y[j] - packing_.y[i],
                                         packing_.z[j] - packing_.z[i]);
-        if (reference.norm() < apart) return;
+        if (reference.norm() < least_reference_distance * edge) return;
         const double carried = (mean_deformation(particles, i, j) * reference).norm();
         if (carried > reach) pairs_.emplace_back(i, j);
     };
@@ -124,19 +131,18 @@ const SlotPairs& SelfContact::approaching(const Particles& particles, double dur
     allowance_ -= 2 * fastest * duration;
     if (allowance_ <= 0) {
         find_pairs(particles);
-        allowance_ = search_margin * packing_.edge - 2 * fastest * duration;
+        allowance_ = search_margin * narrowest_ - 2 * fastest * duration;
     }
     return pairs_;
 }
 
 void SelfContact::separate(Particles& particles, const Schedule& schedule, int level) {
     const double dt = schedule.step(level);
-    const double touching = contact_distance * packing_.edge;
     for (const auto& [i, j] : pairs_) {
         if (schedule.motion_level(i) != level) continue;
         const Eigen::Vector3d line = offset(particles.position, i, j);
         const double distance = line.norm();
-        if (distance >= touching) continue;
+        if (distance >= contact_distance * mean_edge(i, j)) continue;
         const Eigen::Vector3d normal = line / distance;
         const double closing = -offset(particles.velocity, i, j).dot(normal);
         if (closing <= 0) continue;

@@ -28,10 +28,12 @@ class SelfContact {
   private:
     void find_surface();
     void find_pairs(const Particles& particles);
+    double mean_edge(std::size_t i, std::size_t j) const;  // local, of two slots [m]
 
     const Packing& packing_;
     double density_;
     std::vector<std::size_t> surface_;  // slots
+    double narrowest_;                  // local edge at the surface [m]
     SlotPairs pairs_;                   // that may meet soon
     double allowance_ = 0;  // way that two particles may still close before a new search
     double lost_energy_ = 0;

@@ -102,3 +102,49 @@ TEST_CASE("uniaxial compression gives the elastic stresses and stores its work",
     CHECK(patch.constitutive.work().stored_in_shear ==
           Approx(2.0 / 3 * shear * strain * strain * volume).epsilon(1e-2));
 }
+
+TEST_CASE("a misfit is resisted in a narrower lattice as in a body of its size",
+          "[constitutive]") {
+    const impact::ImpactCase impact_case = elastic_case();
+    const sph::Packing packing = sph::pack(
+        specimen::make_shape(specimen::reduced_head_3mm, 8e-3, 40e-3), 4e-3 / 5);
+    const auto equation_of_state = material::make_equation_of_state(impact_case.material);
+    const sph::Rest rest = sph::rest_state(*equation_of_state, 300);
+    const sph::Reference reference(packing, rest.density, 0);
+    sph::Particles particles(packing.slots);
+    sph::Constitutive constitutive(
+        impact_case, packing, *equation_of_state, rest,
+        material::make_elastic<float>({}, packing.active.size() * sph::block_size));
+    constitutive.initialise(particles);
+    // By turns in both lattices: a ~ G edge^2 w^2 u / rho ~ u / edge^2.
+    for (std::size_t c = 0; c < packing.columns.size(); ++c) {
+        const sph::Column& column = packing.columns[c];
+        for (std::size_t k = 0; k < packing.sites_per_column; ++k) {
+            const std::size_t slot = column.first_slot + k;
+            if (packing.volume[slot] > 0)
+                particles.speed[0].lanes()[slot] = column.parity() == 0 ? 1.0f : -1.0f;
+        }
+    }
+    for (const std::size_t block : packing.active)
+        reference.velocity_gradient(particles, block, particles.speed);
+    for (std::size_t index = 0; index < packing.active.size(); ++index)
+        constitutive.update(particles, reference, index, 1e-9);
+    for (const std::size_t block : packing.active) reference.accelerate(particles, block);
+    const auto axial_mean = [&](double low, double high) {
+        double sum = 0, edge = 0;
+        int count = 0;
+        for (std::size_t slot = 0; slot < packing.slots; ++slot) {
+            if (packing.volume[slot] <= 0 || packing.z[slot] < low ||
+                packing.z[slot] > high ||
+                std::hypot(packing.x[slot], packing.y[slot]) >
+                    0.6 * packing.local_edge[slot])
+                continue;
+            sum += std::abs(static_cast<double>(particles.acceleration[0].lanes()[slot]));
+            edge += packing.local_edge[slot];
+            ++count;
+        }
+        REQUIRE(count > 4);
+        return sum / count * std::pow(edge / count, 2);
+    };
+    CHECK(axial_mean(3e-3, 7e-3) == Approx(axial_mean(25e-3, 35e-3)).epsilon(0.05));
+}

@@ -55,19 +55,47 @@ TEST_CASE("particles are balanced about the axis and none is a sliver", "[packin
     const sph::Packing packing = sph::pack(shape, 1e-3);
     double x = 0, y = 0, total = 0;
     std::size_t count = 0;
-    const double lattice_volume = 0.5e-9;
     for (std::size_t slot = 0; slot < packing.slots; ++slot) {
         x += packing.volume[slot] * packing.x[slot];
         y += packing.volume[slot] * packing.y[slot];
         total += packing.volume[slot];
         if (packing.volume[slot] <= 0) continue;
         ++count;
+        const double lattice_volume = std::pow(packing.local_edge[slot], 3) / 2;
         CHECK(packing.volume[slot] > 0.1 * lattice_volume);
         CHECK(packing.volume[slot] < 2.5 * lattice_volume);
     }
     CHECK(count == packing.particles);
     CHECK(std::abs(x) < 1e-12 * total);
     CHECK(std::abs(y) < 1e-12 * total);
+}
+
+TEST_CASE("thin sections have more than half as many particles across as the rear",
+          "[packing]") {
+    const specimen::Shape shape = shape_of(GENERATE(0, 1, 2, 3));
+    const sph::Packing packing = sph::pack(shape, 4e-3 / 6);
+    double before = packing.layers.front().edge;
+    for (const sph::Layer& layer : packing.layers) {
+        CHECK(layer.radius / layer.edge > 3.4);
+        CHECK(layer.edge <= packing.edge);
+        CHECK(layer.edge < 1.1 * before);
+        CHECK(layer.edge >= before);
+        before = layer.edge;
+        if (layer.low > 0 && layer.high < shape.length())
+            CHECK(layer.high - layer.low == Approx(layer.edge / 2).epsilon(0.04));
+    }
+    CHECK(packing.layers.back().edge == packing.edge);
+}
+
+TEST_CASE("no column ends on the flank of a cone's tip", "[packing]") {
+    const sph::Packing packing = sph::pack(shape_of(3), 4e-3 / 6);
+    std::vector<int> particles(packing.layers.size());
+    for (std::size_t c = 0; c < packing.columns.size(); ++c)
+        for (std::size_t k = 0; k < packing.sites_per_column; ++k)
+            if (packing.volume[packing.columns[c].first_slot + k] > 0)
+                ++particles[packing.layer_of(c, k)];
+    for (std::size_t l = 2; packing.layers[l].high < 8e-3; ++l)
+        CHECK(particles[l] == particles[l - 2]);
 }
 
 TEST_CASE("the undeformed specimen measures its own dimensions", "[outline]") {

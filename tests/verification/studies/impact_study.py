@@ -11,7 +11,8 @@ AT_90 = {shape: [90] for shape in SHAPES}
 SERIES = [
     ("axisymmetric", 16, [5, 8, 12, 16], EVERYWHERE),
     ("3d", 1, [4, 6, 9], AT_90),
-    ("3d", 4, [4, 6, 9, 12], EVERYWHERE),
+    ("3d", 4, [4, 6, 9], EVERYWHERE),
+    ("3d", 4, [12], AT_90),
     ("3d", 16, [4, 6], AT_90),
 ]
 # One run's sizes scatter by more than what is left of the mesh in fine cells.

@@ -135,7 +135,8 @@ Patches tile_disc(double radius_in_edges, int parity) {
         if (patch.area >= limit) kept[site] = patch;
     }
     Patches owned = kept;
-    for (const auto& [site, patch] : covered) {
+    for (const auto& tile : covered) {
+        const Site& site = tile.first;
         if (kept.contains(site)) continue;
         sample_tile(site, [&](double x, double y) {
             if (x * x + y * y >= r2) return;

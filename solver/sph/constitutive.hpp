@@ -86,7 +86,7 @@ class Constitutive {
     float heated_share_;  // of the plastic work
     float linear_viscosity_;
     float quadratic_viscosity_;
-    Field edge_;              // local, zero where there is no particle [m]
+    Field edge_;              // local [m]
     Field misfit_stiffness_;  // kappa / 2 G [m2]
     Work work_;
 };

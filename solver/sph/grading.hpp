@@ -12,7 +12,7 @@ namespace taylorcal::sph {
 /// Thin sections have more than half as many particles across as the rear has: in the
 /// head below a step the lattice is narrower throughout, at the tip of a cone it widens
 /// as the cone does, so that no column ends on the flank there. Above a step it widens
-/// slowly enough for the columns at the rim not to lean by more than they are apart.
+/// slowly: columns that lean soften a head that collapses.
 class Grading {
   public:
     explicit Grading(const specimen::Shape& shape);
@@ -27,6 +27,7 @@ class Grading {
   private:
     /// In a section by itself.
     double wanted(double radius) const;
+
     const specimen::Shape& shape_;
     std::vector<double> lowest_share_;            // by stretch
     std::vector<std::vector<double>> stretched_;  // below evenly spread heights

@@ -1,5 +1,6 @@
 #include "solver/material/elastic.hpp"
 #include "solver/sph/constitutive.hpp"
+#include "tests/unit/sph/hourglass_motion.hpp"
 
 #include <numbers>
 
@@ -116,35 +117,13 @@ TEST_CASE("a misfit is resisted in a narrower lattice as in a body of its size",
         impact_case, packing, *equation_of_state, rest,
         material::make_elastic<float>({}, packing.active.size() * sph::block_size));
     constitutive.initialise(particles);
-    // By turns in both lattices: a ~ G edge^2 w^2 u / rho ~ u / edge^2.
-    for (std::size_t c = 0; c < packing.columns.size(); ++c) {
-        const sph::Column& column = packing.columns[c];
-        for (std::size_t k = 0; k < packing.sites_per_column; ++k) {
-            const std::size_t slot = column.first_slot + k;
-            if (packing.volume[slot] > 0)
-                particles.speed[0].lanes()[slot] = column.parity() == 0 ? 1.0f : -1.0f;
-        }
-    }
+    // a ~ G edge^2 w^2 u / rho ~ u / edge^2.
+    set_alternating_speed(particles, packing, 1);
     for (const std::size_t block : packing.active)
         reference.velocity_gradient(particles, block, particles.speed);
     for (std::size_t index = 0; index < packing.active.size(); ++index)
         constitutive.update(particles, reference, index, 1e-9);
     for (const std::size_t block : packing.active) reference.accelerate(particles, block);
-    const auto axial_mean = [&](double low, double high) {
-        double sum = 0, edge = 0;
-        int count = 0;
-        for (std::size_t slot = 0; slot < packing.slots; ++slot) {
-            if (packing.volume[slot] <= 0 || packing.z[slot] < low ||
-                packing.z[slot] > high ||
-                std::hypot(packing.x[slot], packing.y[slot]) >
-                    0.6 * packing.local_edge[slot])
-                continue;
-            sum += std::abs(static_cast<double>(particles.acceleration[0].lanes()[slot]));
-            edge += packing.local_edge[slot];
-            ++count;
-        }
-        REQUIRE(count > 4);
-        return sum / count * std::pow(edge / count, 2);
-    };
-    CHECK(axial_mean(3e-3, 7e-3) == Approx(axial_mean(25e-3, 35e-3)).epsilon(0.05));
+    CHECK(scaled_acceleration(particles, packing, 3e-3, 7e-3, 2) ==
+          Approx(scaled_acceleration(particles, packing, 25e-3, 35e-3, 2)).epsilon(0.05));
 }

@@ -1,5 +1,6 @@
 #include "common/specimen_names.hpp"
 #include "solver/sph/reference.hpp"
+#include "tests/unit/sph/hourglass_motion.hpp"
 
 #include <numbers>
 
@@ -90,15 +91,7 @@ TEST_CASE("hourglass damping does not see linear velocity fields", "[reference]"
     set_linear_velocity(particles, packing, spin);
     const double linear = largest_acceleration();
     // The same speeds alternating between the two interlaced lattices are all hourglass.
-    for (std::size_t c = 0; c < packing.columns.size(); ++c) {
-        const sph::Column& column = packing.columns[c];
-        for (std::size_t k = 0; k < packing.sites_per_column; ++k) {
-            const std::size_t slot = column.first_slot + k;
-            if (packing.volume[slot] > 0) {
-                particles.speed[0].lanes()[slot] = column.parity() == 0 ? 10.0f : -10.0f;
-            }
-        }
-    }
+    set_alternating_speed(particles, packing, 10);
     const double alternating = largest_acceleration();
     CHECK(linear < 1e-3 * alternating);
 }
@@ -108,38 +101,16 @@ TEST_CASE("hourglass damping acts on a narrower lattice as on a body of its size
     const sph::Packing packing = specimen_packing(2);
     const sph::Reference reference(packing, 8930, 1e3);
     sph::Particles particles(packing.slots);
-    // By turns in both lattices, as a stiff hourglass: a ~ c w v / rho ~ v / edge.
-    for (std::size_t c = 0; c < packing.columns.size(); ++c) {
-        const sph::Column& column = packing.columns[c];
-        for (std::size_t k = 0; k < packing.sites_per_column; ++k) {
-            const std::size_t slot = column.first_slot + k;
-            if (packing.volume[slot] > 0)
-                particles.speed[0].lanes()[slot] = column.parity() == 0 ? 10.0f : -10.0f;
-        }
-    }
+    // a ~ c w v / rho ~ v / edge.
+    set_alternating_speed(particles, packing, 10);
     const sph::Vector unstressed[9] = {};
     for (const std::size_t block : packing.active) {
         reference.velocity_gradient(particles, block, particles.speed);
         reference.store_pull(particles, block, unstressed);
     }
     for (const std::size_t block : packing.active) reference.accelerate(particles, block);
-    const auto axial_mean = [&](double low, double high) {
-        double sum = 0, edge = 0;
-        int count = 0;
-        for (std::size_t slot = 0; slot < packing.slots; ++slot) {
-            if (packing.volume[slot] <= 0 || packing.z[slot] < low ||
-                packing.z[slot] > high ||
-                std::hypot(packing.x[slot], packing.y[slot]) >
-                    0.6 * packing.local_edge[slot])
-                continue;
-            sum += std::abs(static_cast<double>(particles.acceleration[0].lanes()[slot]));
-            edge += packing.local_edge[slot];
-            ++count;
-        }
-        REQUIRE(count > 4);
-        return sum / count * edge / count;
-    };
-    CHECK(axial_mean(3e-3, 7e-3) == Approx(axial_mean(25e-3, 35e-3)).epsilon(0.05));
+    CHECK(scaled_acceleration(particles, packing, 3e-3, 7e-3, 1) ==
+          Approx(scaled_acceleration(particles, packing, 25e-3, 35e-3, 1)).epsilon(0.05));
 }
 
 TEST_CASE("a uniform axial stress pulls at the faces alone", "[reference]") {

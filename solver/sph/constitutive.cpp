@@ -100,8 +100,7 @@ Constitutive::Constitutive(const impact::ImpactCase& impact_case, const Packing&
       edge_(packing.slots),
       misfit_stiffness_(packing.slots) {
     for (std::size_t slot = 0; slot < packing.slots; ++slot) {
-        const double edge =
-            packing.volume[slot] > 0 ? packing.local_edge[slot] : packing.edge;
+        const double edge = packing.local_edge[slot];
         edge_.lanes()[slot] = static_cast<float>(edge);
         // In units of the rear's misfits, see Reference.
         misfit_stiffness_.lanes()[slot] =

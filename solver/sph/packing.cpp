@@ -29,6 +29,8 @@ using Patches = std::map<Site, Patch>;
 
 constexpr double least_coverage = 0.35;  // of a tile, for its site to become a particle
 constexpr int samples_per_edge = 24;
+// Discs are told apart to a part of a sample, since those of a graded lattice all differ.
+constexpr int radii_per_edge = 4 * samples_per_edge;
 // The thickness that the layer on a face stands for, in layers. One that stood for half a
 // layer, as geometry has it, would let a uniform stress pull at the layers above it as
 // well: the gradients there are one-sided, and their sum over the particles does not
@@ -161,12 +163,11 @@ Packing pack(const specimen::Shape& shape, double edge) {
     std::map<Site, std::size_t> column_of;
     for (std::size_t l = 0; l < packing.layers.size(); ++l) {
         const Layer& layer = packing.layers[l];
-        const long width = std::lround(layer.radius / layer.edge * samples_per_edge * 4);
+        const long width = std::lround(layer.radius / layer.edge * radii_per_edge);
         const auto [same, is_new] = alike.try_emplace({width, l % 2}, l);
-        tiles.push_back(
-            is_new ? tile_disc(static_cast<double>(width) / (4 * samples_per_edge),
-                               static_cast<int>(l % 2))
-                   : tiles[same->second]);
+        tiles.push_back(is_new ? tile_disc(static_cast<double>(width) / radii_per_edge,
+                                           static_cast<int>(l % 2))
+                               : tiles[same->second]);
         for (const auto& [site, patch] : tiles.back()) column_of[site] = 0;
     }
 
@@ -187,10 +188,10 @@ Packing pack(const specimen::Shape& shape, double edge) {
             {site.first, site.second, block * block_size + shift, block});
     }
     packing.slots = (1 + packing.columns.size() * packing.blocks_per_column) * block_size;
-    for (auto* field :
-         {&packing.x, &packing.y, &packing.z, &packing.volume, &packing.local_edge}) {
+    for (auto* field : {&packing.x, &packing.y, &packing.z, &packing.volume}) {
         field->assign(packing.slots, 0.0);
     }
+    packing.local_edge.assign(packing.slots, edge);
     for (std::size_t l = 0; l < packing.layers.size(); ++l) {
         double total = 0;
         for (const auto& [site, patch] : tiles[l]) total += patch.area;

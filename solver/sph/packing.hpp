@@ -49,9 +49,10 @@ struct Packing {
     std::size_t sites_per_column = 0;
     std::size_t blocks_per_column = 0;  ///< with the empty ones after it
     std::size_t slots = 0;
-    std::vector<double> x, y, z;      ///< reference positions, by slot [m]
-    std::vector<double> volume;       ///< zero where there is no particle [m3]
-    std::vector<double> local_edge;   ///< of the lattice cube, by slot [m]
+    std::vector<double> x, y, z;  ///< reference positions, by slot [m]
+    std::vector<double> volume;   ///< zero where there is no particle [m3]
+    std::vector<double>
+        local_edge;  ///< of the lattice cube, by slot; empty ones the rear's [m]
     std::vector<std::size_t> active;  ///< blocks that hold a particle
     std::size_t particles = 0;
 

@@ -35,7 +35,6 @@ Reference::Reference(const Packing& packing, double density, double hourglass_vi
         volume_.lanes()[slot] = static_cast<float>(packing.volume[slot]);
         specific_volume_.lanes()[slot] =
             packing.volume[slot] > 0 ? static_cast<float>(1 / density) : 0.0f;
-        if (packing.volume[slot] <= 0) continue;
         const double share = packing.local_edge[slot] / packing.edge;
         viscosity_.lanes()[slot] =
             static_cast<float>(hourglass_viscosity * std::pow(share, 1 - 5));

@@ -94,9 +94,10 @@ void SelfContact::find_pairs(const Particles& particles) {
 
     pairs_.clear();
     const auto visit = [&](std::size_t i, std::size_t j) {
+        if (j <= i) return;
         const double edge = mean_edge(i, j);
         const double reach = (contact_distance + search_margin) * edge;
-        if (j <= i || offset(x, i, j).norm() > reach) return;
+        if (offset(x, i, j).norm() > reach) return;
         const Eigen::Vector3d reference(packing_.x[j] - packing_.x[i],
                                         packing_.y[j] - packing_.y[i],
                                         packing_.z[j] - packing_.z[i]);

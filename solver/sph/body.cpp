@@ -74,7 +74,7 @@ Body::Body(const impact::ImpactCase& impact_case, const StrengthFactory& make_st
       constitutive_(impact_case, packing_, *equation_of_state_, rest_,
                     strength_of(impact_case, packing_, make_strength)),
       anvil_(packing_, rest_.density, impact_case.additions),
-      self_contact_(packing_, rest_.density),
+      self_contact_(impact_case.shape, packing_, rest_.density),
       schedule_(packing_, reference_.stencils(packing_)) {
     particles_.position = {packing_.x, packing_.y, packing_.z};
     sound_time_ = constitutive_.initialise(particles_);

@@ -3,22 +3,21 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
-#include <tuple>
+#include <optional>
 
-#include <Eigen/Core>
+#include <Eigen/Dense>
 
 namespace taylorcal::sph {
 
 namespace {
 
-// In local edges, means of the two. Two surfaces that touch have their particles' planes
-// half an edge apart and the particles themselves somewhat more.
-constexpr double contact_distance = 0.6;
+// In local edges: of an element across its surface, in the reference state.
+constexpr double half_width = 0.75;
 constexpr double search_margin = 0.4;
-// Nearer pairs are joined by the continuum; so are pairs further apart that it has itself
-// brought as near as they are.
-constexpr double least_reference_distance = 2;
+// Cosine between the normals of two surfaces from which on they face each other. The
+// sides of a fold that has just begun, or of a corner, are joined by the continuum.
+constexpr double facing = -0.5;
+constexpr double nearly_facing = -0.2;
 
 Eigen::Vector3d offset(const std::array<std::vector<double>, 3>& points, std::size_t i,
                        std::size_t j) {
@@ -26,62 +25,68 @@ Eigen::Vector3d offset(const std::array<std::vector<double>, 3>& points, std::si
             points[2][j] - points[2][i]};
 }
 
-Eigen::Matrix3d mean_deformation(const Particles& particles, std::size_t i,
-                                 std::size_t j) {
-    Eigen::Matrix3d mean;
-    for (std::size_t c = 0; c < 9; ++c) {
-        const auto& f = particles.deformation[c];
-        mean(static_cast<Eigen::Index>(c / 3), static_cast<Eigen::Index>(c % 3)) =
-            (f[i] + f[j]) / 2;
+/// An element as its particle has deformed it.
+struct DeformedElement {
+    Eigen::Matrix3d inverse;  // F^-1
+    Eigen::Vector3d normal;   // F^-T N / |F^-T N|
+    double depth;             // of the particle below the surface [m]
+
+    DeformedElement(const SurfaceElement& element, const Particles& particles) {
+        Eigen::Matrix3d gradient;
+        for (std::size_t c = 0; c < 9; ++c) {
+            gradient(static_cast<Eigen::Index>(c / 3), static_cast<Eigen::Index>(c % 3)) =
+                particles.deformation[c][element.slot];
+        }
+        inverse = gradient.inverse();
+        normal = inverse.transpose() * element.normal;
+        depth = element.depth / normal.norm();
+        normal.normalize();
     }
-    return mean;
+};
+
+struct Meeting {
+    Eigen::Vector3d normal;  // from the one to the other
+    double gap;              // between their surfaces [m]
+    double aside;            // the lesser distance along a surface, in the reference [m]
+};
+
+/// How two elements stand to each other, or nothing if they do not face each other.
+std::optional<Meeting> meeting(const DeformedElement& a, const DeformedElement& b,
+                               const Eigen::Vector3d& line, double cosine) {
+    if (a.normal.dot(b.normal) > cosine) return std::nullopt;
+    const Eigen::Vector3d normal = (a.normal - b.normal).normalized();
+    const double along = line.dot(normal);
+    if (along <= 0) return std::nullopt;
+    const Eigen::Vector3d across = line - along * normal;
+    return Meeting{normal, along - a.depth - b.depth,
+                   std::min((a.inverse * across).norm(), (b.inverse * across).norm())};
 }
 
 }  // namespace
 
-SelfContact::SelfContact(const Packing& packing, double density)
-    : packing_(packing), density_(density), narrowest_(packing.edge) {
-    find_surface();
-}
-
-/// Sites that lack one of the fourteen nearest ones of the bcc lattice.
-void SelfContact::find_surface() {
-    std::map<std::tuple<int, int, int>, std::size_t> slot_at;
-    for (const Column& column : packing_.columns) {
-        const std::size_t end = column.first_slot + packing_.sites_per_column;
-        for (std::size_t slot = column.first_slot; slot < end; ++slot) {
-            if (packing_.volume[slot] <= 0) continue;
-            const auto layer =
-                2 * static_cast<int>(slot - column.first_slot) + column.parity();
-            slot_at[{column.ix, column.iy, layer}] = slot;
-        }
-    }
-    for (const auto& [site, slot] : slot_at) {
-        const auto& [x, y, layer] = site;
-        bool inside = true;
-        for (const int s : {-1, 1}) {
-            inside = inside && slot_at.contains({x + 2 * s, y, layer}) &&
-                     slot_at.contains({x, y + 2 * s, layer}) &&
-                     slot_at.contains({x, y, layer + 2 * s});
-            for (const int t : {-1, 1}) {
-                for (const int u : {-1, 1}) {
-                    inside = inside && slot_at.contains({x + s, y + t, layer + u});
-                }
-            }
-        }
-        if (!inside) surface_.push_back(slot);
-    }
-    for (const std::size_t slot : surface_)
-        narrowest_ = std::min(narrowest_, packing_.local_edge[slot]);
-}
-
-double SelfContact::mean_edge(std::size_t i, std::size_t j) const {
-    return (packing_.local_edge[i] + packing_.local_edge[j]) / 2;
+SelfContact::SelfContact(const specimen::Shape& shape, const Packing& packing,
+                         double density)
+    : packing_(packing),
+      density_(density),
+      surface_(surface_elements(shape, packing)),
+      narrowest_(packing.edge) {
+    for (const SurfaceElement& element : surface_)
+        narrowest_ = std::min(narrowest_, packing_.local_edge[element.slot]);
 }
 
 void SelfContact::find_pairs(const Particles& particles) {
-    const double widest = (contact_distance + search_margin) * packing_.edge;
     const std::array<std::vector<double>, 3>& x = particles.position;
+    std::vector<DeformedElement> deformed;
+    std::vector<double> reach;  // of an element, with what it may move until the next
+    for (const SurfaceElement& element : surface_) {
+        deformed.emplace_back(element, particles);
+        double squares = 0;
+        for (const auto& component : particles.deformation)
+            squares += component[element.slot] * component[element.slot];
+        reach.push_back(packing_.local_edge[element.slot] *
+                        (half_width * std::sqrt(squares) + search_margin));
+    }
+    const double widest = *std::max_element(reach.begin(), reach.end());
     using Cell = std::array<long, 3>;
     const auto cell_of = [&](std::size_t slot) {
         return Cell{std::lround(x[0][slot] / widest), std::lround(x[1][slot] / widest),
@@ -89,23 +94,27 @@ void SelfContact::find_pairs(const Particles& particles) {
     };
     std::vector<std::pair<Cell, std::size_t>> sorted;
     sorted.reserve(surface_.size());
-    for (const std::size_t slot : surface_) sorted.emplace_back(cell_of(slot), slot);
+    for (std::size_t e = 0; e < surface_.size(); ++e)
+        sorted.emplace_back(cell_of(surface_[e].slot), e);
     std::sort(sorted.begin(), sorted.end());
 
+    facing_.clear();
     pairs_.clear();
-    const auto visit = [&](std::size_t i, std::size_t j) {
-        if (j <= i) return;
-        const double edge = mean_edge(i, j);
-        const double reach = (contact_distance + search_margin) * edge;
-        if (offset(x, i, j).norm() > reach) return;
-        const Eigen::Vector3d reference(packing_.x[j] - packing_.x[i],
-                                        packing_.y[j] - packing_.y[i],
-                                        packing_.z[j] - packing_.z[i]);
-        if (reference.norm() < least_reference_distance * edge) return;
-        const double carried = (mean_deformation(particles, i, j) * reference).norm();
-        if (carried > reach) pairs_.emplace_back(i, j);
+    const auto visit = [&](std::size_t a, std::size_t b) {
+        if (b <= a) return;
+        const std::size_t i = surface_[a].slot, j = surface_[b].slot;
+        if (deformed[a].normal.dot(deformed[b].normal) > nearly_facing) return;
+        const auto met =
+            meeting(deformed[a], deformed[b], offset(x, i, j), nearly_facing);
+        const double margin =
+            search_margin * (packing_.local_edge[i] + packing_.local_edge[j]) / 2;
+        const double wide =
+            half_width * std::max(packing_.local_edge[i], packing_.local_edge[j]);
+        if (!met || met->gap > margin || met->aside > wide + margin) return;
+        facing_.emplace_back(a, b);
+        pairs_.emplace_back(i, j);
     };
-    for (const auto& [cell, slot] : sorted) {
+    for (const auto& [cell, element] : sorted) {
         for (long dx = -1; dx <= 1; ++dx) {
             for (long dy = -1; dy <= 1; ++dy) {
                 // The three cells along z are consecutive in the sorted list.
@@ -114,7 +123,7 @@ void SelfContact::find_pairs(const Particles& particles) {
                 auto it = std::lower_bound(sorted.begin(), sorted.end(),
                                            std::pair<Cell, std::size_t>{low, 0});
                 for (; it != sorted.end() && it->first <= high; ++it) {
-                    visit(slot, it->second);
+                    visit(element, it->second);
                 }
             }
         }
@@ -123,10 +132,10 @@ void SelfContact::find_pairs(const Particles& particles) {
 
 const SlotPairs& SelfContact::approaching(const Particles& particles, double duration) {
     double fastest = 0;
-    for (const std::size_t slot : surface_) {
-        const double speed =
-            std::hypot(particles.velocity[0][slot], particles.velocity[1][slot],
-                       particles.velocity[2][slot]);
+    for (const SurfaceElement& element : surface_) {
+        const double speed = std::hypot(particles.velocity[0][element.slot],
+                                        particles.velocity[1][element.slot],
+                                        particles.velocity[2][element.slot]);
         fastest = std::max(fastest, speed);
     }
     allowance_ -= 2 * fastest * duration;
@@ -139,13 +148,17 @@ const SlotPairs& SelfContact::approaching(const Particles& particles, double dur
 
 void SelfContact::separate(Particles& particles, const Schedule& schedule, int level) {
     const double dt = schedule.step(level);
-    for (const auto& [i, j] : pairs_) {
+    for (const auto& [a, b] : facing_) {
+        const std::size_t i = surface_[a].slot, j = surface_[b].slot;
         if (schedule.motion_level(i) != level) continue;
-        const Eigen::Vector3d line = offset(particles.position, i, j);
-        const double distance = line.norm();
-        if (distance >= contact_distance * mean_edge(i, j)) continue;
-        const Eigen::Vector3d normal = line / distance;
-        const double closing = -offset(particles.velocity, i, j).dot(normal);
+        const auto met = meeting(DeformedElement(surface_[a], particles),
+                                 DeformedElement(surface_[b], particles),
+                                 offset(particles.position, i, j), facing);
+        if (!met || met->gap > 0 ||
+            met->aside >
+                half_width * std::max(packing_.local_edge[i], packing_.local_edge[j]))
+            continue;
+        const double closing = -offset(particles.velocity, i, j).dot(met->normal);
         if (closing <= 0) continue;
         const double mass_i = density_ * packing_.volume[i];
         const double mass_j = density_ * packing_.volume[j];
@@ -154,12 +167,12 @@ void SelfContact::separate(Particles& particles, const Schedule& schedule, int l
         double pulled = 0;
         for (std::size_t c = 0; c < 3; ++c) {
             const float* acceleration = particles.acceleration[c].lanes();
-            pulled += dt * normal(static_cast<Eigen::Index>(c)) *
+            pulled += dt * met->normal(static_cast<Eigen::Index>(c)) *
                       static_cast<double>(acceleration[i] - acceleration[j]);
         }
         lost_energy_ += 0.5 * impulse * (closing - pulled);
         for (std::size_t c = 0; c < 3; ++c) {
-            const double along = normal(static_cast<Eigen::Index>(c));
+            const double along = met->normal(static_cast<Eigen::Index>(c));
             particles.velocity[c][i] -= impulse / mass_i * along;
             particles.velocity[c][j] += impulse / mass_j * along;
         }

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "solver/sph/packing.hpp"
 #include "solver/sph/particles.hpp"
+#include "solver/sph/surface.hpp"
 
 #include <cstddef>
 #include <utility>
@@ -9,13 +9,14 @@
 
 namespace taylorcal::sph {
 
-/// Keeps parts of the surface apart that were apart and fold onto each other. Two surface
-/// particles, far from each other in the reference state, that are closer than their
-/// half layers allow give up their approach along their line: an inelastic, frictionless
-/// collision that conserves momentum and has no stiffness to choose.
+/// Keeps parts of the surface apart that fold onto each other. Two of its elements that
+/// face each other, one above the other, whose surfaces have met give up their approach
+/// along their common normal: an inelastic, frictionless collision that conserves
+/// momentum and has no stiffness to choose. Surfaces turn and thin as their particles
+/// deform (Nanson's relation), so that they meet where the outline shows them to.
 class SelfContact {
   public:
-    SelfContact(const Packing& packing, double density);
+    SelfContact(const specimen::Shape& shape, const Packing& packing, double density);
 
     /// Finds the pairs of slots that may meet within a time [s].
     const SlotPairs& approaching(const Particles& particles, double duration);
@@ -26,15 +27,14 @@ class SelfContact {
     double lost_energy() const { return lost_energy_; }  ///< kinetic [J]
 
   private:
-    void find_surface();
     void find_pairs(const Particles& particles);
-    double mean_edge(std::size_t i, std::size_t j) const;  // local, of two slots [m]
 
     const Packing& packing_;
     double density_;
-    std::vector<std::size_t> surface_;  // slots
-    double narrowest_;                  // local edge at the surface [m]
-    SlotPairs pairs_;                   // that may meet soon
+    std::vector<SurfaceElement> surface_;
+    double narrowest_;  // local edge at the surface [m]
+    std::vector<std::pair<std::size_t, std::size_t>> facing_;  // elements near each other
+    SlotPairs pairs_;                                          // their slots
     double allowance_ = 0;  // way that two particles may still close before a new search
     double lost_energy_ = 0;
 };

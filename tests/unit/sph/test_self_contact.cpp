@@ -1,7 +1,10 @@
 #include "solver/sph/reference.hpp"
 #include "solver/sph/self_contact.hpp"
+#include "solver/sph/surface.hpp"
 
 #include <cmath>
+#include <numbers>
+#include <set>
 
 #include <catch2/catch.hpp>
 
@@ -37,10 +40,10 @@ struct FoldedBar {
         return sum;
     }
 
-    sph::Packing packing =
-        sph::pack(specimen::make_shape(specimen::uniform_cylinder, 8e-3, 40e-3), 1e-3);
+    specimen::Shape shape = specimen::make_shape(specimen::uniform_cylinder, 8e-3, 40e-3);
+    sph::Packing packing = sph::pack(shape, 1e-3);
     sph::Particles particles{packing.slots};
-    sph::SelfContact contact{packing, 8930};
+    sph::SelfContact contact{shape, packing, 8930};
     sph::Schedule schedule{packing, sph::Reference(packing, 8930, 0).stencils(packing)};
 };
 
@@ -74,4 +77,44 @@ TEST_CASE("surfaces apart and reference neighbours are left alone", "[self_conta
     FoldedBar bar(1.5);
     bar.separate();
     CHECK(bar.contact.lost_energy() == 0);
+}
+
+TEST_CASE("surfaces meet where deformed particles have them", "[self_contact]") {
+    FoldedBar thinned(0.3), thick(0.3);
+    for (double& across : thinned.particles.deformation[0]) across = 0.2;
+    thinned.separate();
+    thick.separate();
+    CHECK(thinned.contact.lost_energy() == 0);
+    CHECK(thick.contact.lost_energy() > 0);
+}
+
+TEST_CASE("surface elements lie on the flank and on the shoulder", "[self_contact]") {
+    const auto profile = GENERATE(specimen::uniform_cylinder, specimen::reduced_head_3mm,
+                                  specimen::truncated_cone);
+    const specimen::Shape shape = specimen::make_shape(profile);
+    const sph::Packing packing = sph::pack(shape, 0.8e-3);
+    std::set<double> flank_heights;
+    double shoulder_area = 0;
+    for (const sph::SurfaceElement& element : sph::surface_elements(shape, packing)) {
+        const Eigen::Vector3d place(packing.x[element.slot], packing.y[element.slot],
+                                    packing.z[element.slot]);
+        const Eigen::Vector3d point = place + element.depth * element.normal;
+        CHECK(element.normal.norm() == Approx(1));
+        if (element.normal.z() == -1) {
+            CHECK(point.z() == Approx(shape.head_length));
+            shoulder_area += packing.volume[element.slot] / (2 * element.depth);
+        } else {
+            CHECK(point.head<2>().norm() ==
+                  Approx(shape.radius_at(place.z()) +
+                         (point.z() - place.z()) * -element.normal.z() /
+                             element.normal.head<2>().norm()));
+            flank_heights.insert(place.z());
+        }
+    }
+    CHECK(flank_heights.size() == packing.layers.size());
+    const double step = profile.kind == specimen::ProfileKind::stepped
+                            ? std::numbers::pi * (std::pow(shape.rear_radius(), 2) -
+                                                  std::pow(shape.station_radius[0], 2))
+                            : 0;
+    CHECK(shoulder_area == Approx(step).epsilon(0.15));
 }

@@ -1,0 +1,66 @@
+#include "solver/sph/surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace taylorcal::sph {
+
+namespace {
+
+// Of the outermost particles below the surface, in local edges: sites that would own
+// little of their tile have given it to them.
+constexpr double deepest = 0.85;
+constexpr double tolerance = 1e-9;  // between heights that are meant to be one [m]
+
+/// The stretch of the profile that holds a layer.
+std::size_t stretch_of(const specimen::Shape& shape, const Layer& layer) {
+    std::size_t lower = 0;
+    while (shape.station_height[lower + 1] < layer.high - tolerance ||
+           shape.station_height[lower + 1] <= shape.station_height[lower])
+        ++lower;
+    return lower;
+}
+
+}  // namespace
+
+std::vector<SurfaceElement> surface_elements(const specimen::Shape& shape,
+                                             const Packing& packing) {
+    std::vector<std::vector<std::size_t>> slots_in(packing.layers.size());
+    for (std::size_t c = 0; c < packing.columns.size(); ++c) {
+        for (std::size_t k = 0; k < packing.sites_per_column; ++k) {
+            const std::size_t slot = packing.columns[c].first_slot + k;
+            if (packing.volume[slot] > 0)
+                slots_in[packing.layer_of(c, k)].push_back(slot);
+        }
+    }
+    std::vector<SurfaceElement> elements;
+    for (std::size_t l = 0; l < packing.layers.size(); ++l) {
+        const Layer& layer = packing.layers[l];
+        const std::size_t lower = stretch_of(shape, layer);
+        const double bottom = shape.station_height[lower];
+        const double slope =
+            (shape.station_radius[lower + 1] - shape.station_radius[lower]) /
+            (shape.station_height[lower + 1] - bottom);
+        const double radius =
+            shape.station_radius[lower] + slope * (layer.height - bottom);
+        const double tilt = 1 / std::hypot(1, slope);
+        const bool above_step = lower > 0 && layer.low < bottom + tolerance &&
+                                shape.station_height[lower - 1] == bottom;
+        for (const std::size_t slot : slots_in[l]) {
+            const double x = packing.x[slot], y = packing.y[slot];
+            const double r = std::hypot(x, y);
+            const double depth = tilt * (radius - r);
+            if (depth < deepest * layer.edge && r > 0) {
+                elements.push_back({slot, tilt * Eigen::Vector3d(x / r, y / r, -slope),
+                                    std::max(depth, 0.0)});
+            }
+            if (above_step && r > shape.station_radius[lower - 1]) {
+                elements.push_back(
+                    {slot, -Eigen::Vector3d::UnitZ(), layer.height - layer.low});
+            }
+        }
+    }
+    return elements;
+}
+
+}  // namespace taylorcal::sph

@@ -154,15 +154,17 @@ void SelfContact::separate(Particles& particles, const Schedule& schedule, int l
         const auto met = meeting(DeformedElement(surface_[a], particles),
                                  DeformedElement(surface_[b], particles),
                                  offset(particles.position, i, j), facing);
-        if (!met || met->gap > 0 ||
+        if (!met ||
             met->aside >
                 half_width * std::max(packing_.local_edge[i], packing_.local_edge[j]))
             continue;
         const double closing = -offset(particles.velocity, i, j).dot(met->normal);
-        if (closing <= 0) continue;
+        const double left = std::max(met->gap, 0.0) / dt;  // until they touch
+        if (closing <= left) continue;
         const double mass_i = density_ * packing_.volume[i];
         const double mass_j = density_ * packing_.volume[j];
-        const double impulse = closing * mass_i * mass_j / (mass_i + mass_j);
+        const double impulse =
+            (closing - left) * mass_i * mass_j / (mass_i + mass_j);
         // As for the anvil: the mean closing speed of the whole kick does the work.
         double pulled = 0;
         for (std::size_t c = 0; c < 3; ++c) {
@@ -170,7 +172,7 @@ void SelfContact::separate(Particles& particles, const Schedule& schedule, int l
             pulled += dt * met->normal(static_cast<Eigen::Index>(c)) *
                       static_cast<double>(acceleration[i] - acceleration[j]);
         }
-        lost_energy_ += 0.5 * impulse * (closing - pulled);
+        lost_energy_ += 0.5 * impulse * (closing - pulled + left);
         for (std::size_t c = 0; c < 3; ++c) {
             const double along = met->normal(static_cast<Eigen::Index>(c));
             particles.velocity[c][i] -= impulse / mass_i * along;

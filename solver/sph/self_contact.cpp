@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 namespace taylorcal::sph {
 
@@ -25,29 +25,10 @@ Eigen::Vector3d offset(const std::array<std::vector<double>, 3>& points, std::si
             points[2][j] - points[2][i]};
 }
 
-/// An element as its particle has deformed it.
-struct DeformedElement {
-    Eigen::Matrix3d inverse;  // F^-1
-    Eigen::Vector3d normal;   // F^-T N / |F^-T N|
-    double depth;             // of the particle below the surface [m]
-
-    DeformedElement(const SurfaceElement& element, const Particles& particles) {
-        Eigen::Matrix3d gradient;
-        for (std::size_t c = 0; c < 9; ++c) {
-            gradient(static_cast<Eigen::Index>(c / 3), static_cast<Eigen::Index>(c % 3)) =
-                particles.deformation[c][element.slot];
-        }
-        inverse = gradient.inverse();
-        normal = inverse.transpose() * element.normal;
-        depth = element.depth / normal.norm();
-        normal.normalize();
-    }
-};
-
 struct Meeting {
     Eigen::Vector3d normal;  // from the one to the other
     double gap;              // between their surfaces [m]
-    double aside;            // the lesser distance along a surface, in the reference [m]
+    double aside;            // the lesser distance along a surface, in lattice cells
 };
 
 /// How two elements stand to each other, or nothing if they do not face each other.
@@ -79,7 +60,7 @@ void SelfContact::find_pairs(const Particles& particles) {
     std::vector<DeformedElement> deformed;
     std::vector<double> reach;  // of an element, with what it may move until the next
     for (const SurfaceElement& element : surface_) {
-        deformed.emplace_back(element, particles);
+        deformed.push_back(deform(element, packing_, particles));
         double squares = 0;
         for (const auto& component : particles.deformation)
             squares += component[element.slot] * component[element.slot];
@@ -98,8 +79,17 @@ void SelfContact::find_pairs(const Particles& particles) {
         sorted.emplace_back(cell_of(surface_[e].slot), e);
     std::sort(sorted.begin(), sorted.end());
 
+    near_.clear();
     facing_.clear();
     pairs_.clear();
+    std::vector<std::size_t> place(surface_.size(), surface_.size());  // in near_
+    const auto place_of = [&](std::size_t e) {
+        if (place[e] == surface_.size()) {
+            place[e] = near_.size();
+            near_.push_back(surface_[e]);
+        }
+        return place[e];
+    };
     const auto visit = [&](std::size_t a, std::size_t b) {
         if (b <= a) return;
         const std::size_t i = surface_[a].slot, j = surface_[b].slot;
@@ -108,10 +98,8 @@ void SelfContact::find_pairs(const Particles& particles) {
             meeting(deformed[a], deformed[b], offset(x, i, j), nearly_facing);
         const double margin =
             search_margin * (packing_.local_edge[i] + packing_.local_edge[j]) / 2;
-        const double wide =
-            half_width * std::max(packing_.local_edge[i], packing_.local_edge[j]);
-        if (!met || met->gap > margin || met->aside > wide + margin) return;
-        facing_.emplace_back(a, b);
+        if (!met || met->gap > margin || met->aside > half_width + search_margin) return;
+        facing_.emplace_back(place_of(a), place_of(b));
         pairs_.emplace_back(i, j);
     };
     for (const auto& [cell, element] : sorted) {
@@ -148,23 +136,23 @@ const SlotPairs& SelfContact::approaching(const Particles& particles, double dur
 
 void SelfContact::separate(Particles& particles, const Schedule& schedule, int level) {
     const double dt = schedule.step(level);
+    deformed_.resize(near_.size());
+    for (std::size_t e = 0; e < near_.size(); ++e) {
+        if (schedule.motion_level(near_[e].slot) == level)
+            deformed_[e] = deform(near_[e], packing_, particles);
+    }
     for (const auto& [a, b] : facing_) {
-        const std::size_t i = surface_[a].slot, j = surface_[b].slot;
+        const std::size_t i = near_[a].slot, j = near_[b].slot;
         if (schedule.motion_level(i) != level) continue;
-        const auto met = meeting(DeformedElement(surface_[a], particles),
-                                 DeformedElement(surface_[b], particles),
-                                 offset(particles.position, i, j), facing);
-        if (!met ||
-            met->aside >
-                half_width * std::max(packing_.local_edge[i], packing_.local_edge[j]))
-            continue;
+        const auto met =
+            meeting(deformed_[a], deformed_[b], offset(particles.position, i, j), facing);
+        if (!met || met->aside > half_width) continue;
         const double closing = -offset(particles.velocity, i, j).dot(met->normal);
         const double left = std::max(met->gap, 0.0) / dt;  // until they touch
         if (closing <= left) continue;
         const double mass_i = density_ * packing_.volume[i];
         const double mass_j = density_ * packing_.volume[j];
-        const double impulse =
-            (closing - left) * mass_i * mass_j / (mass_i + mass_j);
+        const double impulse = (closing - left) * mass_i * mass_j / (mass_i + mass_j);
         // As for the anvil: the mean closing speed of the whole kick does the work.
         double pulled = 0;
         for (std::size_t c = 0; c < 3; ++c) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "solver/sph/particles.hpp"
 #include "solver/sph/surface.hpp"
 
 #include <cstddef>
@@ -32,8 +31,10 @@ class SelfContact {
     const Packing& packing_;
     double density_;
     std::vector<SurfaceElement> surface_;
-    double narrowest_;  // local edge at the surface [m]
-    std::vector<std::pair<std::size_t, std::size_t>> facing_;  // elements near each other
+    double narrowest_;                  // local edge at the surface [m]
+    std::vector<SurfaceElement> near_;  // those that face another one nearby
+    std::vector<DeformedElement> deformed_;
+    std::vector<std::pair<std::size_t, std::size_t>> facing_;  // pairs of near_
     SlotPairs pairs_;                                          // their slots
     double allowance_ = 0;  // way that two particles may still close before a new search
     double lost_energy_ = 0;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Dense>
+
 namespace taylorcal::sph {
 
 namespace {
@@ -61,6 +63,20 @@ std::vector<SurfaceElement> surface_elements(const specimen::Shape& shape,
         }
     }
     return elements;
+}
+
+DeformedElement deform(const SurfaceElement& element, const Packing& packing,
+                       const Particles& particles) {
+    Eigen::Matrix3d gradient;
+    for (std::size_t c = 0; c < 9; ++c) {
+        gradient(static_cast<Eigen::Index>(c / 3), static_cast<Eigen::Index>(c % 3)) =
+            particles.deformation[c][element.slot];
+    }
+    const Eigen::Matrix3d inverse = gradient.inverse();
+    const Eigen::Vector3d normal = inverse.transpose() * element.normal;
+    const double squeeze = normal.norm();
+    return {inverse / packing.local_edge[element.slot], normal / squeeze,
+            element.depth / squeeze};
 }
 
 }  // namespace taylorcal::sph

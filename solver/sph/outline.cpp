@@ -25,6 +25,13 @@ Eigen::Vector3d carried(const Particles& particles, std::size_t slot,
     return point;
 }
 
+Eigen::Vector3d beside(const Particles& particles, std::size_t slot,
+                       const Eigen::Vector3d& offset) {
+    return Eigen::Vector3d(particles.position[0][slot], particles.position[1][slot],
+                           particles.position[2][slot]) +
+           offset;
+}
+
 }  // namespace
 
 Outline::Outline(const specimen::Shape& shape, const Packing& packing)
@@ -67,8 +74,10 @@ Outline::Outline(const specimen::Shape& shape, const Packing& packing)
         }
         rings_.back().smoothed = false;
         if (std::abs(stations[s + 1] - shape.head_length) < tolerance) {
-            // The head's side of the section, but carried by the rear, which shears less.
+            // The head's side of the section, but held by the rear, which hardly deforms
+            // there: the gradients at the corner mix in those of the head.
             on_station(s + 1, layer);
+            rings_.back().rigid = true;
             transition_ring_ = rings_.size() - 1;
         } else {
             on_station(s + 1, layer - 1);
@@ -78,7 +87,7 @@ Outline::Outline(const specimen::Shape& shape, const Packing& packing)
 
 Outline::Ring Outline::make_ring(std::size_t layer, double height, double radius,
                                  bool smoothed) const {
-    Ring ring{{}, smoothed};
+    Ring ring{{}, smoothed, false};
     for (int a = 0; a < angles; ++a) {
         const double angle = 2 * std::numbers::pi * (a + 0.5) / angles;
         const double x = radius * std::cos(angle), y = radius * std::sin(angle);
@@ -122,7 +131,8 @@ observe::DeformedProfile Outline::measure(const Particles& particles) const {
         Eigen::Vector3d centre = Eigen::Vector3d::Zero();
         std::vector<Eigen::Vector3d> points;
         for (const Tracer& t : ring.tracers) {
-            points.push_back(carried(particles, t.slot, {t.x, t.y, t.z}));
+            points.push_back(ring.rigid ? beside(particles, t.slot, {t.x, t.y, t.z})
+                                        : carried(particles, t.slot, {t.x, t.y, t.z}));
             centre += points.back() / angles;
         }
         double square = 0;

@@ -34,6 +34,7 @@ class Outline {
     struct Ring {
         std::vector<Tracer> tracers;
         bool smoothed;  // has both neighbours in the same stretch of the profile
+        bool rigid;     // moves with its particles but does not deform with them
     };
     /// Mean height of the material plane at a reference height within or beside a layer.
     double plane_height(const Particles& particles, std::size_t layer,

@@ -1,5 +1,6 @@
 #include "solver/sph/reference.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -67,6 +68,9 @@ TEST_CASE("particles that may collide move together", "[schedule]") {
     CHECK(bar.schedule.motion_level(rear) == 3);
     bar.schedule.start({{foot, rear}});
     CHECK(bar.schedule.motion_level(rear) == 0);
+    const auto last = static_cast<std::uint32_t>(bar.packing.active.size() - 1);
+    const auto& soon = bar.schedule.renewed(1);
+    CHECK(std::find(soon.begin(), soon.end(), last) != soon.end());
 }
 
 TEST_CASE("impulses of pairs add up to nothing over a cycle of mixed steps",

@@ -79,6 +79,7 @@ Outline::Outline(const specimen::Shape& shape, const Packing& packing)
             on_station(s + 1, layer);
             rings_.back().rigid = true;
             transition_ring_ = rings_.size() - 1;
+            head_radius_ = shape.station_radius[s + 1];
         } else {
             on_station(s + 1, layer - 1);
         }
@@ -103,11 +104,12 @@ Outline::Ring Outline::make_ring(std::size_t layer, double height, double radius
     return ring;
 }
 
-double Outline::plane_height(const Particles& particles, std::size_t layer,
-                             double height) const {
+double Outline::plane_height(const Particles& particles, std::size_t layer, double height,
+                             double radius) const {
     const double rise = height - packing_.layers[layer].height;
     double sum = 0, volume = 0;
     for (const std::size_t slot : layer_slots_[layer]) {
+        if (std::hypot(packing_.x[slot], packing_.y[slot]) > radius) continue;
         sum += packing_.volume[slot] * carried(particles, slot, {0, 0, rise}).z();
         volume += packing_.volume[slot];
     }
@@ -124,7 +126,7 @@ observe::DeformedProfile Outline::measure(const Particles& particles) const {
     profile.total_length =
         plane_height(particles, last, packing_.layers[last].high) - face;
     profile.transition_height =
-        plane_height(particles, transition_layer_, head_length_) - face;
+        plane_height(particles, transition_layer_, head_length_, head_radius_) - face;
 
     std::vector<double> heights, radii;
     for (const Ring& ring : rings_) {

@@ -5,6 +5,7 @@
 #include "solver/sph/packing.hpp"
 #include "solver/sph/particles.hpp"
 
+#include <cmath>
 #include <vector>
 
 namespace taylorcal::sph {
@@ -36,9 +37,10 @@ class Outline {
         bool smoothed;  // has both neighbours in the same stretch of the profile
         bool rigid;     // moves with its particles but does not deform with them
     };
-    /// Mean height of the material plane at a reference height within or beside a layer.
-    double plane_height(const Particles& particles, std::size_t layer,
-                        double height) const;
+    /// Mean height of the material plane at a reference height within or beside a layer,
+    /// up to a reference radius.
+    double plane_height(const Particles& particles, std::size_t layer, double height,
+                        double radius = INFINITY) const;
     Ring make_ring(std::size_t layer, double height, double radius, bool smoothed) const;
 
     const Packing& packing_;
@@ -47,6 +49,7 @@ class Outline {
     std::size_t transition_ring_ = 0;
     std::size_t transition_layer_ = 0;  // just above the head-rear section
     double head_length_;
+    double head_radius_ = INFINITY;  // of the head at the head-rear section
     double initial_length_;
     double initial_rear_radius_;
 };

@@ -1,7 +1,6 @@
-"""A 3D head that folds against its shoulder does not pass through it.
+"""Heads and cones that fold run to the stop, and their surfaces do not pass through each other.
 
-At 125 m/s the 3-mm head collapses into a skirt that reaches the rim of the rear. Cells:
-tests/unit/axisymmetric.
+At 125 m/s the 3-mm head collapses into a skirt that reaches the rim of the rear.
 """
 
 import json
@@ -35,6 +34,17 @@ def test_no_particle_of_the_head_is_above_the_shoulder(collapsed_head):
     skirt = ~rear & (radius > above[0][0]) & (radius < above[0][-1])
     assert (skirt & (radius > 3)).sum() > 200  # twice the radius that it had
     assert np.all(height[skirt] < np.interp(radius[skirt], *above))
+
+
+@pytest.mark.parametrize("geometry, fidelity", [("axisymmetric", "standard"), ("3d", "coarse")])
+def test_a_cone_of_150_m_s_runs_to_the_stop(solver, geometry, fidelity):
+    question = ["--geometry", geometry, "--fidelity", fidelity, "--shape", "truncated_cone"]
+    command = [solver, "run", *question, "--velocity", "150", "--json"]
+    finished = subprocess.run(command, capture_output=True, text=True)
+    assert finished.returncode == 0, finished.stderr
+    answer = json.loads(finished.stdout)
+    assert answer["status"] == "stopped"
+    assert answer["descriptors"]["energy_error"] < 0.002
 
 
 def test_energy_is_balanced_while_surfaces_meet(collapsed_head):

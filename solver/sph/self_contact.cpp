@@ -14,6 +14,10 @@ namespace {
 // In local edges: of an element across its surface, in the reference state.
 constexpr double half_width = 0.75;
 constexpr double search_margin = 0.4;
+// Of two surfaces that touch. Those that single particles extrapolate scatter about the
+// one that they share: with none, the outermost would hold the others apart, and heads
+// would come out too long by that much.
+constexpr double overlap = 0.2;
 // Cosine between the normals of two surfaces from which on they face each other. The
 // sides of a fold that has just begun, or of a corner, are joined by the continuum.
 constexpr double facing = -0.5;
@@ -27,19 +31,20 @@ Eigen::Vector3d offset(const std::array<std::vector<double>, 3>& points, std::si
 
 struct Meeting {
     Eigen::Vector3d normal;  // from the one to the other
-    double gap;              // between their surfaces [m]
+    double gap;              // until their surfaces touch [m]
     double aside;            // the lesser distance along a surface, in lattice cells
 };
 
-/// How two elements stand to each other, or nothing if they do not face each other.
+/// How two elements stand to each other, whose local edge is `edge` on an average, or
+/// nothing if they do not face each other.
 std::optional<Meeting> meeting(const DeformedElement& a, const DeformedElement& b,
-                               const Eigen::Vector3d& line, double cosine) {
+                               const Eigen::Vector3d& line, double edge, double cosine) {
     if (a.normal.dot(b.normal) > cosine) return std::nullopt;
     const Eigen::Vector3d normal = (a.normal - b.normal).normalized();
     const double along = line.dot(normal);
     if (along <= 0) return std::nullopt;
     const Eigen::Vector3d across = line - along * normal;
-    return Meeting{normal, along - a.depth - b.depth,
+    return Meeting{normal, along - a.depth - b.depth + overlap * edge,
                    std::min((a.inverse * across).norm(), (b.inverse * across).norm())};
 }
 
@@ -94,11 +99,12 @@ void SelfContact::find_pairs(const Particles& particles) {
         if (b <= a) return;
         const std::size_t i = surface_[a].slot, j = surface_[b].slot;
         if (deformed[a].normal.dot(deformed[b].normal) > nearly_facing) return;
+        const double edge = (packing_.local_edge[i] + packing_.local_edge[j]) / 2;
         const auto met =
-            meeting(deformed[a], deformed[b], offset(x, i, j), nearly_facing);
-        const double margin =
-            search_margin * (packing_.local_edge[i] + packing_.local_edge[j]) / 2;
-        if (!met || met->gap > margin || met->aside > half_width + search_margin) return;
+            meeting(deformed[a], deformed[b], offset(x, i, j), edge, nearly_facing);
+        if (!met || met->gap > search_margin * edge ||
+            met->aside > half_width + search_margin)
+            return;
         facing_.emplace_back(place_of(a), place_of(b));
         pairs_.emplace_back(i, j);
     };
@@ -144,8 +150,9 @@ void SelfContact::separate(Particles& particles, const Schedule& schedule, int l
     for (const auto& [a, b] : facing_) {
         const std::size_t i = near_[a].slot, j = near_[b].slot;
         if (schedule.motion_level(i) != level) continue;
-        const auto met =
-            meeting(deformed_[a], deformed_[b], offset(particles.position, i, j), facing);
+        const double edge = (packing_.local_edge[i] + packing_.local_edge[j]) / 2;
+        const auto met = meeting(deformed_[a], deformed_[b],
+                                 offset(particles.position, i, j), edge, facing);
         if (!met || met->aside > half_width) continue;
         const double closing = -offset(particles.velocity, i, j).dot(met->normal);
         const double left = std::max(met->gap, 0.0) / dt;  // until they touch

@@ -122,3 +122,21 @@ TEST_CASE("the undeformed specimen measures its own dimensions", "[outline]") {
         CHECK(profile.outline_radius[i] == Approx(shape.radius_at(height)).epsilon(1e-6));
     }
 }
+
+TEST_CASE("the head-rear section is the head's, held by the rear", "[outline]") {
+    const specimen::Shape shape = specimen::make_shape(specimen::reduced_head_4mm);
+    const sph::Packing packing = sph::pack(shape, 0.7e-3);
+    sph::Particles particles(packing.slots);
+    particles.position = {packing.x, packing.y, packing.z};
+    const sph::Outline outline(shape, packing);
+    const double radius = shape.station_radius.front();
+    for (std::size_t slot = 0; slot < packing.slots; ++slot) {
+        // The shoulder bends up, and the corner's particles are sheared outwards.
+        if (std::hypot(packing.x[slot], packing.y[slot]) > radius)
+            particles.position[2][slot] += 0.1e-3;
+        particles.deformation[0][slot] = particles.deformation[4][slot] = 1.5;
+    }
+    const observe::DeformedProfile profile = outline.measure(particles);
+    CHECK(profile.transition_height == Approx(shape.head_length).epsilon(1e-9));
+    CHECK(profile.transition_radius == Approx(radius).epsilon(1e-9));
+}

@@ -11,9 +11,9 @@ namespace {
 constexpr double longest_growth = 1.05;  // of the finest step from one cycle to the next
 constexpr int tick_candidates = 8;       // within the factor of two between levels
 // Levels by which the stresses of blocks that may collide are renewed less often than
-// they move. A collision changes velocities at once: between two kicks of a stress, work
-// by the mean of its velocities is then not that of the kicks, and with no limit heads
-// that fold gain up to a per cent of energy.
+// they move. A collision changes velocities at once. Between two kicks of a stress, the
+// work that is counted by mean velocities is then not what the kicks do: with no limit,
+// heads that fold gain up to a per cent of energy.
 constexpr int contact_lag = 1;
 
 }  // namespace

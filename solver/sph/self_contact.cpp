@@ -11,12 +11,13 @@ namespace taylorcal::sph {
 
 namespace {
 
-// In local edges: of an element across its surface, in the reference state.
+// In local edges: of an element across its surface, in the reference state. With half an
+// edge the elements of a coarse skirt leave holes.
 constexpr double half_width = 0.75;
 constexpr double search_margin = 0.4;
 // Of two surfaces that touch. Those that single particles extrapolate scatter about the
 // one that they share: with none, the outermost would hold the others apart, and heads
-// would come out too long by that much.
+// would come out too long by that much; with 0.3, a coarse skirt passes the shoulder.
 constexpr double overlap = 0.2;
 // Cosine between the normals of two surfaces from which on they face each other. The
 // sides of a fold that has just begun, or of a corner, are joined by the continuum.

@@ -36,18 +36,10 @@ Eigen::Vector3d beside(const Particles& particles, std::size_t slot,
 
 Outline::Outline(const specimen::Shape& shape, const Packing& packing)
     : packing_(packing),
-      layer_slots_(packing.layers.size()),
+      layer_slots_(packing.slots_by_layer()),
       head_length_(shape.head_length),
       initial_length_(shape.length()),
       initial_rear_radius_(shape.rear_radius()) {
-    for (std::size_t c = 0; c < packing.columns.size(); ++c) {
-        for (std::size_t k = 0; k < packing.sites_per_column; ++k) {
-            const std::size_t slot = packing.columns[c].first_slot + k;
-            if (packing.volume[slot] > 0) {
-                layer_slots_[packing.layer_of(c, k)].push_back(slot);
-            }
-        }
-    }
     const auto& stations = shape.station_height;
     std::size_t layer = 0;
     for (std::size_t s = 0; s + 1 < stations.size(); ++s) {

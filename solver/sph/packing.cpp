@@ -153,6 +153,17 @@ Patches tile_disc(double radius_in_edges, int parity) {
 
 }  // namespace
 
+std::vector<std::vector<std::size_t>> Packing::slots_by_layer() const {
+    std::vector<std::vector<std::size_t>> by_layer(layers.size());
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+        for (std::size_t k = 0; k < sites_per_column; ++k) {
+            const std::size_t slot = columns[c].first_slot + k;
+            if (volume[slot] > 0) by_layer[layer_of(c, k)].push_back(slot);
+        }
+    }
+    return by_layer;
+}
+
 Packing pack(const specimen::Shape& shape, double edge) {
     Packing packing;
     packing.edge = edge;

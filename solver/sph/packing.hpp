@@ -59,6 +59,8 @@ struct Packing {
     std::size_t layer_of(std::size_t column, std::size_t k) const {
         return 2 * k + static_cast<std::size_t>(columns[column].parity());
     }
+    /// Slots of the particles of each layer.
+    std::vector<std::vector<std::size_t>> slots_by_layer() const;
 };
 
 /// Packs `shape` with a lattice edge of `edge` in the rear [m], along the axis adjusted

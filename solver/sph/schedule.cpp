@@ -90,6 +90,15 @@ void Schedule::choose_motion(const SlotPairs& pairs) {
     }
 }
 
+void Schedule::limit_lag(const SlotPairs& pairs) {
+    for (const auto& [a, b] : pairs) {
+        for (const std::size_t slot : {a, b}) {
+            const std::uint32_t i = index_of_block_[slot / block_size];
+            renewal_[i] = std::min(renewal_[i], motion_[i] + contact_lag);
+        }
+    }
+}
+
 void Schedule::share_steps() {
     for (std::size_t i = 0; i < stencils_.size(); ++i) {
         const double next = step(renewal_[i]);
@@ -105,13 +114,10 @@ void Schedule::share_steps() {
 void Schedule::start(const SlotPairs& pairs) {
     std::swap(now_, before_);
     choose_motion(pairs);
-    for (const auto& [a, b] : pairs) {
-        for (const std::size_t slot : {a, b}) {
-            const std::uint32_t i = index_of_block_[slot / block_size];
-            renewal_[i] = std::min(renewal_[i], motion_[i] + contact_lag);
-        }
+    if (!pairs.empty()) {
+        limit_lag(pairs);
+        choose_motion(pairs);
     }
-    choose_motion(pairs);
     share_steps();
     for (auto* lists : {&moving_, &renewed_}) {
         for (auto& list : *lists) list.clear();

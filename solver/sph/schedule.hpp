@@ -88,6 +88,7 @@ class Schedule {
   private:
     int level(double stable, double tick) const;
     void choose_motion(const SlotPairs& pairs);
+    void limit_lag(const SlotPairs& pairs);
     void share_steps();
 
     const Packing& packing_;

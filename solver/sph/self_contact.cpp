@@ -61,19 +61,23 @@ SelfContact::SelfContact(const specimen::Shape& shape, const Packing& packing,
         narrowest_ = std::min(narrowest_, packing_.local_edge[element.slot]);
 }
 
+double SelfContact::mean_edge(std::size_t i, std::size_t j) const {
+    return (packing_.local_edge[i] + packing_.local_edge[j]) / 2;
+}
+
 void SelfContact::find_pairs(const Particles& particles) {
     const std::array<std::vector<double>, 3>& x = particles.position;
     std::vector<DeformedElement> deformed;
-    std::vector<double> reach;  // of an element, with what it may move until the next
+    double widest =
+        0;  // reach of an element, with what it may move until the next search
     for (const SurfaceElement& element : surface_) {
         deformed.push_back(deform(element, packing_, particles));
         double squares = 0;
         for (const auto& component : particles.deformation)
             squares += component[element.slot] * component[element.slot];
-        reach.push_back(packing_.local_edge[element.slot] *
-                        (half_width * std::sqrt(squares) + search_margin));
+        widest = std::max(widest, packing_.local_edge[element.slot] *
+                                      (half_width * std::sqrt(squares) + search_margin));
     }
-    const double widest = *std::max_element(reach.begin(), reach.end());
     using Cell = std::array<long, 3>;
     const auto cell_of = [&](std::size_t slot) {
         return Cell{std::lround(x[0][slot] / widest), std::lround(x[1][slot] / widest),
@@ -99,8 +103,7 @@ void SelfContact::find_pairs(const Particles& particles) {
     const auto visit = [&](std::size_t a, std::size_t b) {
         if (b <= a) return;
         const std::size_t i = surface_[a].slot, j = surface_[b].slot;
-        if (deformed[a].normal.dot(deformed[b].normal) > nearly_facing) return;
-        const double edge = (packing_.local_edge[i] + packing_.local_edge[j]) / 2;
+        const double edge = mean_edge(i, j);
         const auto met =
             meeting(deformed[a], deformed[b], offset(x, i, j), edge, nearly_facing);
         if (!met || met->gap > search_margin * edge ||
@@ -151,9 +154,9 @@ void SelfContact::separate(Particles& particles, const Schedule& schedule, int l
     for (const auto& [a, b] : facing_) {
         const std::size_t i = near_[a].slot, j = near_[b].slot;
         if (schedule.motion_level(i) != level) continue;
-        const double edge = (packing_.local_edge[i] + packing_.local_edge[j]) / 2;
-        const auto met = meeting(deformed_[a], deformed_[b],
-                                 offset(particles.position, i, j), edge, facing);
+        const auto met =
+            meeting(deformed_[a], deformed_[b], offset(particles.position, i, j),
+                    mean_edge(i, j), facing);
         if (!met || met->aside > half_width) continue;
         const double closing = -offset(particles.velocity, i, j).dot(met->normal);
         const double left = std::max(met->gap, 0.0) / dt;  // until they touch

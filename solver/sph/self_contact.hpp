@@ -27,6 +27,7 @@ class SelfContact {
 
   private:
     void find_pairs(const Particles& particles);
+    double mean_edge(std::size_t i, std::size_t j) const;  // local, of two slots [m]
 
     const Packing& packing_;
     double density_;

@@ -27,14 +27,7 @@ std::size_t stretch_of(const specimen::Shape& shape, const Layer& layer) {
 
 std::vector<SurfaceElement> surface_elements(const specimen::Shape& shape,
                                              const Packing& packing) {
-    std::vector<std::vector<std::size_t>> slots_in(packing.layers.size());
-    for (std::size_t c = 0; c < packing.columns.size(); ++c) {
-        for (std::size_t k = 0; k < packing.sites_per_column; ++k) {
-            const std::size_t slot = packing.columns[c].first_slot + k;
-            if (packing.volume[slot] > 0)
-                slots_in[packing.layer_of(c, k)].push_back(slot);
-        }
-    }
+    const std::vector<std::vector<std::size_t>> slots = packing.slots_by_layer();
     std::vector<SurfaceElement> elements;
     for (std::size_t l = 0; l < packing.layers.size(); ++l) {
         const Layer& layer = packing.layers[l];
@@ -48,7 +41,7 @@ std::vector<SurfaceElement> surface_elements(const specimen::Shape& shape,
         const double tilt = 1 / std::hypot(1, slope);
         const bool above_step = lower > 0 && layer.low < bottom + tolerance &&
                                 shape.station_height[lower - 1] == bottom;
-        for (const std::size_t slot : slots_in[l]) {
+        for (const std::size_t slot : slots[l]) {
             const double x = packing.x[slot], y = packing.y[slot];
             const double r = std::hypot(x, y);
             const double depth = tilt * (radius - r);

@@ -11,16 +11,21 @@ import numpy as np
 import pytest
 
 
+def answer_of(solver, geometry, fidelity, *question):
+    command = [solver, "run", "--json", "--geometry", geometry, "--fidelity", fidelity]
+    finished = subprocess.run([*command, *question], capture_output=True, text=True)
+    assert finished.returncode == 0, finished.stderr
+    return json.loads(finished.stdout)
+
+
 @pytest.fixture(scope="module")
 def collapsed_head(solver, tmp_path_factory):
     """The answer of a coarse 3D run, and its fields."""
     file = tmp_path_factory.mktemp("folding") / "run.h5"
-    question = ["--geometry", "3d", "--fidelity", "coarse", "--shape", "reduced_head_3mm"]
-    command = [solver, "run", *question, "--velocity", "125", "--json", "--out", file]
-    finished = subprocess.run(command, capture_output=True, text=True)
-    assert finished.returncode == 0, finished.stderr
+    question = ["--shape", "reduced_head_3mm", "--velocity", "125", "--out", file]
+    answer = answer_of(solver, "3d", "coarse", *question)
     with h5py.File(file) as run:
-        return json.loads(finished.stdout), {name: run["fields"][name][:] for name in run["fields"]}
+        return answer, {name: values[:] for name, values in run["fields"].items()}
 
 
 def test_no_particle_of_the_head_is_above_the_shoulder(collapsed_head):
@@ -38,11 +43,8 @@ def test_no_particle_of_the_head_is_above_the_shoulder(collapsed_head):
 
 @pytest.mark.parametrize("geometry, fidelity", [("axisymmetric", "standard"), ("3d", "coarse")])
 def test_a_cone_of_150_m_s_runs_to_the_stop(solver, geometry, fidelity):
-    question = ["--geometry", geometry, "--fidelity", fidelity, "--shape", "truncated_cone"]
-    command = [solver, "run", *question, "--velocity", "150", "--json"]
-    finished = subprocess.run(command, capture_output=True, text=True)
-    assert finished.returncode == 0, finished.stderr
-    answer = json.loads(finished.stdout)
+    question = ["--shape", "truncated_cone", "--velocity", "150"]
+    answer = answer_of(solver, geometry, fidelity, *question)
     assert answer["status"] == "stopped"
     assert answer["descriptors"]["energy_error"] < 0.002
 

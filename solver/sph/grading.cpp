@@ -10,6 +10,8 @@ namespace {
 // Of the lattice over the section, both as shares of the rear's: where the rear has six
 // particles across its radius, a head or the tip of a cone has 3.4.
 constexpr double widening = 1.75;
+constexpr double cone_power =
+    0.75;                          // of the radius, by which the lattice widens in a cone
 constexpr double rim_slope = 0.3;  // of a column at the rim, above a step
 constexpr int samples = 400;       // of a stretch, for its length
 
@@ -34,7 +36,8 @@ double Grading::share(std::size_t lower, double height) const {
                  top = shape_.station_height[lower + 1];
     const double r0 = shape_.station_radius[lower], r1 = shape_.station_radius[lower + 1];
     if (r0 != r1) {
-        return wanted(std::lerp(r0, r1, (height - bottom) / (top - bottom)));
+        const double radius = std::lerp(r0, r1, (height - bottom) / (top - bottom));
+        return std::min(1.0, wanted(r0) * std::pow(radius / r0, cone_power));
     }
     return std::min(wanted(r0),
                     lowest_share_[lower] * std::exp(rim_slope * (height - bottom) / r0));

@@ -19,9 +19,9 @@ struct Numerics {
     bool refined_mesh = false;  ///< whether the mesh is cut more finely (axisymmetric)
     int grains_per_point = 8;   ///< grains that share a point's strain
     double cfl = 0.28;          ///< share of the stable step
-    double linear_viscosity = 0.06;
+    double linear_viscosity = 0;
     double quadratic_viscosity = 1.0;
-    double hourglass = 0.1;
+    double hourglass = 1;  ///< 1: particles resist it about as the metal resists waves
     double stop_time_limit_s = 400e-6;  ///< simulated time after which a run gives up
     std::int64_t step_limit = 2'000'000;
     std::int64_t point_update_limit = 2'000'000'000;  ///< steps x cells or particles

@@ -63,11 +63,12 @@ Numerics numerics_for(Geometry geometry, const std::string& fidelity) {
     numerics.grains_per_point = resolution.grains_per_point;
     numerics.point_update_limit = resolution.point_update_limit;
     if (geometry == Geometry::axisymmetric) {
-        // Cells are stable to about 1; particles have a smaller stable step, and
-        // hourglass control of another form (the defaults).
+        // Cells are stable to about 1; particles have a smaller stable step, hourglass
+        // control of another form, and ring less (the defaults).
         numerics.cfl = 0.7;
         numerics.refined_mesh = level > 0;
         numerics.hourglass = 0.3;
+        numerics.linear_viscosity = 0.06;
     }
     return numerics;
 }

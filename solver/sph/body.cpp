@@ -13,8 +13,6 @@ namespace {
 // The step is the least sound time over a particle's own squeezed edge, times this and
 // the Courant number. The 227 m/s copper bar is stable up to nearly twice the default.
 constexpr double edges_per_courant_number = 2;
-// Hourglass damping in units of density, sound speed and edge, over its coefficient.
-constexpr double damping_per_coefficient = 0.3;
 
 /// Of rhoI(0), by grains in the order of the strength's blocks; empty if none differs.
 /// The mean over eight places within a particle, since a skin may be thinner.
@@ -67,10 +65,7 @@ Body::Body(const impact::ImpactCase& impact_case, const StrengthFactory& make_st
       courant_(packing_.active.size(),
                edges_per_courant_number * impact_case.numerics.cfl),
       particles_(packing_.slots),
-      reference_(packing_, rest_.density,
-                 damping_per_coefficient * impact_case.numerics.hourglass *
-                     rest_.density * packing_.edge *
-                     std::sqrt(rest_.state.bulk_modulus / rest_.density)),
+      reference_(packing_, rest_.density),
       constitutive_(impact_case, packing_, *equation_of_state_, rest_,
                     strength_of(impact_case, packing_, make_strength)),
       anvil_(packing_, rest_.density, impact_case.additions),
@@ -97,10 +92,8 @@ void Body::set_velocity(
             field({packing_.x[slot], packing_.y[slot], packing_.z[slot]});
         for (std::size_t c = 0; c < 3; ++c) {
             particles_.velocity[c][slot] = v(static_cast<Eigen::Index>(c));
-            const auto rounded_velocity =
+            particles_.speed[c].lanes()[slot] =
                 static_cast<float>(particles_.velocity[c][slot]);
-            particles_.speed[c].lanes()[slot] = rounded_velocity;
-            particles_.renewed_speed[c].lanes()[slot] = rounded_velocity;
         }
     }
 }
@@ -200,9 +193,6 @@ void Body::renew_stresses(std::uint32_t tick) {
                     ? particles_.speed
                     : particles_.mean_speed[static_cast<std::size_t>(level - 1)];
             reference_.velocity_gradient(particles_, block, velocity);
-            for (std::size_t c = 0; c < 3; ++c) {
-                particles_.renewed_speed[c][block] = velocity[c][block];
-            }
             clock_.mark(impact::Phase::gradients);
             sound_time_[index] = constitutive_.update(particles_, reference_, index, dt);
             tangled_ = tangled_ || !(sound_time_[index] > 0);

@@ -102,10 +102,8 @@ Constitutive::Constitutive(const impact::ImpactCase& impact_case, const Packing&
     for (std::size_t slot = 0; slot < packing.slots; ++slot) {
         const double edge = packing.local_edge[slot];
         edge_.lanes()[slot] = static_cast<float>(edge);
-        // In units of the rear's misfits, see Reference.
         misfit_stiffness_.lanes()[slot] =
-            static_cast<float>(impact_case.numerics.hourglass * edge * edge *
-                               std::pow(edge / packing.edge, -10));
+            static_cast<float>(impact_case.numerics.hourglass * edge * edge);
     }
 }
 
@@ -256,8 +254,7 @@ double Constitutive::advance(Particles& particles, const Reference& reference,
     const auto resistance = misfit_resistance(
         index, response.deviator,
         Vector(static_cast<float>(shear_ratio_) * particles.bulk_modulus[block]));
-    const Vector hourglass = particles.hourglass_heating[block] +
-                             resist_misfit(particles, block, resistance, step);
+    const Vector hourglass = resist_misfit(particles, block, resistance, step);
     const Vector heating = heated_share_ / step * response.plastic_work +
                            viscosity * closing + hourglass * lane_inverse(middle_ratio);
     close_energy(particles, block, dilatation, density, heating, dt);

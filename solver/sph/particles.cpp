@@ -14,7 +14,6 @@ Particles::Particles(std::size_t slots) {
     };
     allocate(speed);
     for (auto& means : mean_speed) allocate(means);
-    allocate(renewed_speed);
     allocate(acceleration);
     allocate(rate);
     allocate(pull);
@@ -22,10 +21,8 @@ Particles::Particles(std::size_t slots) {
     allocate(elastic_misfit);
     allocate(misfit_pull);
     allocate(stress_deviator);
-    for (Field* field :
-         {&hourglass_heating, &pressure, &temperature, &bulk_modulus, &density}) {
+    for (Field* field : {&pressure, &temperature, &bulk_modulus, &density})
         *field = Field(slots);
-    }
 }
 
 }  // namespace taylorcal::sph

@@ -21,14 +21,12 @@ struct Particles {
     std::array<Field, 3> speed;  ///< the velocity, rounded [m/s]
     /// Its means over the steps of the levels from 1 on, where they are asked for [m/s].
     std::array<std::array<Field, 3>, Schedule::highest_level> mean_speed;
-    std::array<Field, 3> renewed_speed;  ///< its mean over the last renewal [m/s]
-    std::array<Field, 3> acceleration;   ///< [m/s2]
-    std::array<Field, 9> rate;           ///< dF/dt at mid step [1/s]
+    std::array<Field, 3> acceleration;  ///< [m/s2]
+    std::array<Field, 9> rate;          ///< dF/dt at mid step [1/s]
     std::array<Field, 9> pull;         ///< Q: corrected first Piola-Kirchhoff stress [Pa]
     std::array<Field, 3> misfit_rate;  ///< see Reference::velocity_gradient [1/(m s)]
     std::array<Field, 3> elastic_misfit;   ///< u, see resist_misfit() [1/m]
     std::array<Field, 3> misfit_pull;      ///< q [Pa m]
-    Field hourglass_heating;               ///< of damping, per reference volume [W/m3]
     std::array<Field, 6> stress_deviator;  ///< S: xx yy zz xy xz yz [Pa]
     Field pressure;                        ///< without the artificial one [Pa]
     Field temperature;                     ///< [K]

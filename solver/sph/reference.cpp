@@ -1,6 +1,7 @@
 #include "solver/sph/reference.hpp"
 
 #include "solver/sph/kernel.hpp"
+#include "solver/sph/misfit.hpp"
 
 #include <cmath>
 #include <map>
@@ -18,13 +19,13 @@ constexpr double smoothing_in_edges = 0.72;
 
 }  // namespace
 
-Reference::Reference(const Packing& packing, double density, double hourglass_viscosity)
+Reference::Reference(const Packing& packing, double density)
     : active_(packing.active),
       column_of_block_(packing.slots / block_size),
       volume_(packing.slots),
       specific_volume_(packing.slots),
-      zeroth_moment_(packing.slots),
-      viscosity_(packing.slots) {
+      first_pair_(packing.slots / block_size),
+      weight_sum_(packing.slots) {
     for (Field& field : place_) field = Field(packing.slots);
     for (Field& field : inverse_) field = Field(packing.slots);
     for (Field& field : first_moment_) field = Field(packing.slots);
@@ -35,12 +36,10 @@ Reference::Reference(const Packing& packing, double density, double hourglass_vi
         volume_.lanes()[slot] = static_cast<float>(packing.volume[slot]);
         specific_volume_.lanes()[slot] =
             packing.volume[slot] > 0 ? static_cast<float>(1 / density) : 0.0f;
-        const double share = packing.local_edge[slot] / packing.edge;
-        viscosity_.lanes()[slot] =
-            static_cast<float>(hourglass_viscosity * std::pow(share, 1 - 5));
     }
     find_neighbours(packing);
     measure_moments(packing);
+    measure_misfits(packing);
 }
 
 void Reference::find_neighbours(const Packing& packing) {
@@ -111,7 +110,6 @@ void Reference::measure_moments(const Packing& packing) {
             if (packing.volume[slot] <= 0) continue;
             Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();
             Eigen::Vector3d first = Eigen::Vector3d::Zero();
-            double zeroth = 0;
             for (const NeighbourColumn& n : neighbours_[column_of_block_[block]]) {
                 for (std::size_t e = 0; e < n.count; ++e) {
                     const std::size_t j = slot + static_cast<std::size_t>(n.offset) + e;
@@ -124,7 +122,6 @@ void Reference::measure_moments(const Packing& packing) {
                     }
                     moment += w * offset * offset.transpose();
                     first += w * offset;
-                    zeroth += w;
                 }
             }
             const Eigen::Matrix3d inverse = moment.inverse();
@@ -134,11 +131,66 @@ void Reference::measure_moments(const Packing& packing) {
                 inverse_[c].lanes()[slot] =
                     static_cast<float>(inverse(row[c], column[c]));
             }
-            zeroth_moment_.lanes()[slot] = static_cast<float>(zeroth);
             for (int c = 0; c < 3; ++c) {
                 first_moment_[static_cast<std::size_t>(c)].lanes()[slot] =
                     static_cast<float>(first(c));
             }
+        }
+    }
+}
+
+void Reference::measure_misfits(const Packing& packing) {
+    // A pair's place in its column's list, by the distance of its slots.
+    std::vector<std::map<std::ptrdiff_t, std::size_t>> place_in_list;
+    for (const auto& list : neighbours_) {
+        auto& places = place_in_list.emplace_back();
+        for (const NeighbourColumn& n : list) {
+            for (std::size_t e = 0; e < n.count; ++e)
+                places.emplace(n.offset + static_cast<std::ptrdiff_t>(e), places.size());
+        }
+    }
+    std::size_t pairs = 0;
+    for (const std::size_t block : active_) {
+        first_pair_[block] = pairs;
+        pairs += place_in_list[column_of_block_[block]].size();
+    }
+    misfit_weight_.assign(pairs, Vector{});
+    reaction_weight_.assign(pairs, Vector{});
+    for (const std::size_t block : active_) {
+        for (std::size_t k = 0; k < block_size; ++k) {
+            const std::size_t slot = block * block_size + k;
+            if (packing.volume[slot] <= 0) continue;
+            std::vector<std::ptrdiff_t> distances;
+            std::vector<Neighbour> neighbours;
+            for (const NeighbourColumn& n : neighbours_[column_of_block_[block]]) {
+                for (std::size_t e = 0; e < n.count; ++e) {
+                    const auto d = n.offset + static_cast<std::ptrdiff_t>(e);
+                    const std::size_t j = slot + static_cast<std::size_t>(d);
+                    if (n.steepness[e] <= 0 || packing.volume[j] <= 0) continue;
+                    distances.push_back(d);
+                    neighbours.push_back(
+                        {{packing.x[j] - packing.x[slot], packing.y[j] - packing.y[slot],
+                          packing.z[j] - packing.z[slot]},
+                         packing.volume[j]});
+                }
+            }
+            const std::vector<double> weights =
+                misfit_weights(neighbours, packing.local_edge[slot]);
+            double sum = 0;
+            for (std::size_t n = 0; n < weights.size(); ++n) {
+                const std::ptrdiff_t d = distances[n];
+                const auto own = place_in_list[column_of_block_[block]].at(d);
+                misfit_weight_[first_pair_[block] + own][k] =
+                    static_cast<float>(weights[n]);
+                sum += weights[n];
+                const std::size_t j = slot + static_cast<std::size_t>(d);
+                const std::size_t other = j / block_size;
+                const auto back = place_in_list[column_of_block_[other]].at(-d);
+                reaction_weight_[first_pair_[other] + back][j % block_size] =
+                    static_cast<float>(weights[n] * packing.volume[slot] /
+                                       packing.volume[j]);
+            }
+            weight_sum_.lanes()[slot] = static_cast<float>(sum);
         }
     }
 }
@@ -165,12 +217,14 @@ void Reference::velocity_gradient_in(Particles& particles, std::size_t block,
     const Vector x0[3] = {place_[0][block], place_[1][block], place_[2][block]};
     const Vector v0[3] = {velocity[0][block], velocity[1][block], velocity[2][block]};
     Vector sum[9] = {};
-    Vector plain[3] = {};  // sum_j w v_ij
-    Vector squares{};
+    Vector misfit[3] = {};
+    const float* weight = misfit_weight_[first_pair_[block]].data();
     for (const NeighbourColumn& n : neighbours_[column_of_block_[block]]) {
         const std::size_t first = slot + static_cast<std::size_t>(n.offset);
         for (std::size_t e = 0; e < n.count; ++e) {
             const std::size_t j = first + e;
+            const Vector c = load(weight);
+            weight += block_size;
             const Vector w = n.steepness[e] * load(volume + j);
             const Vector x = load(place[0] + j) - x0[0];
             const Vector y = load(place[1] + j) - x0[1];
@@ -178,94 +232,45 @@ void Reference::velocity_gradient_in(Particles& particles, std::size_t block,
             for (std::size_t r = 0; r < 3; ++r) {
                 const Vector v = load(speed[r] + j) - v0[r];
                 const Vector wv = w * v;
-                plain[r] += wv;
+                misfit[r] += c * v;
                 sum[3 * r] += wv * x;
                 sum[3 * r + 1] += wv * y;
                 sum[3 * r + 2] += wv * z;
-                squares += wv * v;
             }
         }
     }
     Vector rate[9];
     times_symmetric(sum, inverse_, block, rate);
-    for (std::size_t r = 0; r < 3; ++r) {
-        particles.misfit_rate[r][block] =
-            plain[r] - (rate[3 * r] * first_moment_[0][block] +
-                        rate[3 * r + 1] * first_moment_[1][block] +
-                        rate[3 * r + 2] * first_moment_[2][block]);
-    }
-    Vector explained{};
-    for (std::size_t c = 0; c < 9; ++c) {
-        explained += sum[c] * rate[c];
-        particles.rate[c][block] = rate[c];
-    }
-    particles.hourglass_heating[block] =
-        viscosity_[block] * lane_max(squares - explained, Vector{});
+    for (std::size_t c = 0; c < 9; ++c) particles.rate[c][block] = rate[c];
+    for (std::size_t r = 0; r < 3; ++r) particles.misfit_rate[r][block] = misfit[r];
 }
 
 namespace {
 
 /// All of the stencil is in step.
-template <class Vector>
 struct Alike {
     float own_pull;
-    const float* speed[3];
-    Vector own[3];
 
-    Alike(const Particles& particles, std::size_t block, float share) : own_pull(share) {
-        for (std::size_t r = 0; r < 3; ++r) {
-            speed[r] = particles.speed[r].lanes();
-            own[r] = particles.speed[r][block];
-        }
-    }
     bool silent(std::size_t) const { return false; }
     float pull(std::size_t) const { return own_pull; }
-    Vector damping(std::size_t r, std::size_t j, float pull, const Vector& own_viscosity,
-                   const Vector& viscosity) const {
-        return pull * (own_viscosity + viscosity) * (Vector::load(speed[r] + j) - own[r]);
-    }
 };
 
 /// What arrives now of stresses that were renewed over several levels' steps.
 template <class Vector>
 struct Mixed {
     const float* impulses;
-    const float* level;
     bool own_arrives;
     Vector own_pull;
     Vector per_period;
     float open;
-    const float* own_step_speed[3];  // means over the block's last renewal
-    Vector own_step_own[3];
-    const float* renewed_speed[3];  // each slot's mean over its own last renewal
-    std::size_t levels = 0;
-    float number[Schedule::highest_level + 1];
-    Vector own[Schedule::highest_level + 1][3];  // the block's means over these levels
 
-    Mixed(const Particles& particles, std::size_t block, const Arrivals& arrivals)
+    Mixed(std::size_t block, const Arrivals& arrivals)
         : impulses(arrivals.impulse.lanes()),
-          level(arrivals.level.lanes()),
           per_period(1 / arrivals.period),
           open(arrivals.open) {
         const Vector impulse = arrivals.impulse[block];
         own_arrives = impulse[0] <= open;
         own_pull = own_arrives ? impulse * per_period : Vector{};
-        const auto own_level = static_cast<std::size_t>(arrivals.level[block][0]);
-        const auto& means = arrivals.stencil_means ? particles.mean_speed[own_level - 1]
-                                                   : particles.speed;
-        for (std::size_t r = 0; r < 3; ++r) {
-            own_step_speed[r] = means[r].lanes();
-            own_step_own[r] = means[r][block];
-            renewed_speed[r] = particles.renewed_speed[r].lanes();
-        }
-        for (std::size_t l = 0; l <= Schedule::highest_level; ++l) {
-            if ((arrivals.levels >> l & 1u) == 0) continue;
-            const bool kept = (arrivals.block_means >> l & 1u) != 0;
-            const auto& velocity = kept ? particles.mean_speed[l - 1] : particles.speed;
-            number[levels] = static_cast<float>(l);
-            for (std::size_t r = 0; r < 3; ++r) own[levels][r] = velocity[r][block];
-            ++levels;
-        }
     }
     /// Whether nothing passes now between the block and the sixteen slots from j on.
     bool silent(std::size_t j) const {
@@ -274,18 +279,6 @@ struct Mixed {
     Vector pull(std::size_t j) const {
         const Vector impulse = Vector::load(impulses + j);
         return lane_select(impulse > open, Vector{}, impulse * per_period);
-    }
-    Vector damping(std::size_t r, std::size_t j, const Vector& pull,
-                   const Vector& own_viscosity, const Vector& viscosity) const {
-        const Vector of = Vector::load(level + j);
-        Vector seen = own[0][r];
-        for (std::size_t l = 1; l < levels; ++l) {
-            // Levels are listed from the finest.
-            seen = lane_select(of < number[l], seen, own[l][r]);
-        }
-        return own_pull * own_viscosity *
-                   (Vector::load(own_step_speed[r] + j) - own_step_own[r]) +
-               pull * viscosity * (Vector::load(renewed_speed[r] + j) - seen);
     }
 };
 
@@ -296,6 +289,7 @@ void Reference::accelerate_in(const Steps& steps, Particles& particles,
                               std::size_t block) const {
     const auto load = [](const float* first) { return Vector::load(first); };
     const float* volume = volume_.lanes();
+    const float* reaction = reaction_weight_[first_pair_[block]].data();
     const float* place[3];
     const float* pull[9];
     const float* misfit_pull[3];
@@ -306,46 +300,40 @@ void Reference::accelerate_in(const Steps& steps, Particles& particles,
     for (std::size_t c = 0; c < 9; ++c) pull[c] = particles.pull[c].lanes();
     const std::size_t slot = block * block_size;
     const Vector x0[3] = {place_[0][block], place_[1][block], place_[2][block]};
-    Vector force[3];         // Q_i sum_j w X_ij + sum_j w Q_j X_ij + sum_j w (q_i - q_j)
-    Vector damping[3] = {};  // sum_j w c v_ij, for i's and for j's part
-    const Vector own_viscosity = viscosity_[block];
+    // Q_i sum_j w X_ij + sum_j w Q_j X_ij + sum_j (c_ij q_i - c_ji q_j V_j/V_i)
+    Vector force[3];
     for (std::size_t r = 0; r < 3; ++r) {
         force[r] =
             steps.own_pull * (particles.pull[3 * r][block] * first_moment_[0][block] +
                               particles.pull[3 * r + 1][block] * first_moment_[1][block] +
                               particles.pull[3 * r + 2][block] * first_moment_[2][block] +
-                              particles.misfit_pull[r][block] * zeroth_moment_[block]);
+                              particles.misfit_pull[r][block] * weight_sum_[block]);
     }
     for (const NeighbourColumn& n : neighbours_[column_of_block_[block]]) {
         const std::size_t first = slot + static_cast<std::size_t>(n.offset);
-        for (std::size_t e = 0; e < n.count; ++e) {
+        for (std::size_t e = 0; e < n.count; ++e, reaction += block_size) {
             const std::size_t j = first + e;
             if (steps.silent(j)) continue;
-            const Vector w = n.steepness[e] * load(volume + j);
             const auto pulled = steps.pull(j);
-            const Vector viscosity = load(viscosity_.lanes() + j);
-            const Vector wp = w * pulled;
+            const Vector wp = n.steepness[e] * load(volume + j) * pulled;
             const Vector wx = wp * (load(place[0] + j) - x0[0]);
             const Vector wy = wp * (load(place[1] + j) - x0[1]);
             const Vector wz = wp * (load(place[2] + j) - x0[2]);
+            const Vector cp = load(reaction) * pulled;
             for (std::size_t r = 0; r < 3; ++r) {
                 force[r] += load(pull[3 * r] + j) * wx + load(pull[3 * r + 1] + j) * wy +
                             load(pull[3 * r + 2] + j) * wz -
-                            load(misfit_pull[r] + j) * wp;
-                damping[r] += w * steps.damping(r, j, pulled, own_viscosity, viscosity);
+                            load(misfit_pull[r] + j) * cp;
             }
         }
     }
-    for (std::size_t r = 0; r < 3; ++r) {
-        particles.acceleration[r][block] =
-            specific_volume_[block] * (force[r] + damping[r]);
-    }
+    for (std::size_t r = 0; r < 3; ++r)
+        particles.acceleration[r][block] = specific_volume_[block] * force[r];
 }
 
 void Reference::accelerate(Particles& particles, std::size_t block, float share) const {
     simd::run([&](auto chosen) {
-        using V = Registers<float, chosen.value>;
-        accelerate_in<V>(Alike<V>(particles, block, share), particles, block);
+        accelerate_in<Registers<float, chosen.value>>(Alike{share}, particles, block);
     });
 }
 
@@ -353,7 +341,7 @@ void Reference::accelerate(Particles& particles, std::size_t block,
                            const Arrivals& arrivals) const {
     simd::run([&](auto chosen) {
         using V = Registers<float, chosen.value>;
-        accelerate_in<V>(Mixed<V>(particles, block, arrivals), particles, block);
+        accelerate_in<V>(Mixed<V>(block, arrivals), particles, block);
     });
 }
 

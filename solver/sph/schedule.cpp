@@ -18,13 +18,6 @@ constexpr int contact_lag = 1;
 
 }  // namespace
 
-Schedule::Pattern::Pattern(const Packing& packing)
-    : pulled_alike(packing.active.size(), true),
-      moved_alike(packing.active.size(), true),
-      means_wanted(packing.active.size()),
-      levels(packing.active.size(), 1u),
-      level(packing.slots) {}
-
 Schedule::Schedule(const Packing& packing,
                    std::vector<std::vector<std::uint32_t>> stencils)
     : packing_(packing),
@@ -35,8 +28,10 @@ Schedule::Schedule(const Packing& packing,
       last_(stencils_.size()),
       share_(stencils_.size()),
       shared_alike_(stencils_.size()),
-      now_(packing),
-      before_(packing),
+      pulled_alike_(stencils_.size(), true),
+      pulled_alike_before_(stencils_.size(), true),
+      moved_alike_(stencils_.size(), true),
+      means_wanted_(stencils_.size()),
       moving_(highest_level + 1),
       renewed_(highest_level + 1),
       impulse_(packing.slots),
@@ -105,14 +100,13 @@ void Schedule::share_steps() {
         share_[i] = static_cast<float>((last_[i] + next) / (2 * next));
         last_[i] = next;
         const std::size_t block = packing_.active[i];
-        now_.level[block] = static_cast<float>(renewal_[i]);
         impulse_[block] = static_cast<float>(1u << renewal_[i]);
         first_impulse_[block] = share_[i] * impulse_[block];
     }
 }
 
 void Schedule::start(const SlotPairs& pairs) {
-    std::swap(now_, before_);
+    std::swap(pulled_alike_, pulled_alike_before_);
     choose_motion(pairs);
     if (!pairs.empty()) {
         limit_lag(pairs);
@@ -122,24 +116,22 @@ void Schedule::start(const SlotPairs& pairs) {
     for (auto* lists : {&moving_, &renewed_}) {
         for (auto& list : *lists) list.clear();
     }
-    std::fill(now_.means_wanted.begin(), now_.means_wanted.end(), 0u);
+    std::fill(means_wanted_.begin(), means_wanted_.end(), 0u);
     for (std::uint32_t i = 0; i < stencils_.size(); ++i) {
         moving_[static_cast<std::size_t>(motion_[i])].push_back(i);
         renewed_[static_cast<std::size_t>(renewal_[i])].push_back(i);
         bool pulled = true, shared = true, moved = true;
-        now_.levels[i] = 0;
         for (const std::uint32_t j : stencils_[i]) {
             pulled = pulled && motion_[j] == motion_[i] && renewal_[j] == motion_[i];
             shared = shared && share_[j] == share_[i];
             moved = moved && motion_[j] == renewal_[i];
-            now_.levels[i] |= 1u << renewal_[j];
         }
-        now_.pulled_alike[i] = pulled;
+        pulled_alike_[i] = pulled;
         shared_alike_[i] = shared;
-        now_.moved_alike[i] = moved;
+        moved_alike_[i] = moved;
         if (moved) continue;
         for (const std::uint32_t j : stencils_[i]) {
-            now_.means_wanted[j] |= 1u << renewal_[i];
+            means_wanted_[j] |= 1u << renewal_[i];
         }
     }
 }
@@ -150,14 +142,9 @@ int Schedule::open_level(std::uint32_t tick) const {
 
 Arrivals Schedule::arrivals(std::uint32_t index, std::uint32_t tick) const {
     const bool first = tick == 0;
-    const Pattern& seen = first ? before_ : now_;
     return {first ? first_impulse_ : impulse_,
-            seen.level,
             first ? INFINITY : static_cast<float>(1u << open_level(tick)),
-            static_cast<float>(1u << motion_[index]),
-            seen.levels[index],
-            seen.means_wanted[index],
-            !seen.moved_alike[index]};
+            static_cast<float>(1u << motion_[index])};
 }
 
 }  // namespace taylorcal::sph

@@ -11,17 +11,11 @@ namespace taylorcal::sph {
 
 using SlotPairs = std::vector<std::pair<std::size_t, std::size_t>>;
 
-/// What of the stencil's forces arrives at a block at one tick. A stress belongs to the
-/// step over which it was last renewed, of some level, and so do the mean velocities that
-/// its hourglass damping sees.
+/// What of the stencil's forces arrives at a block at one tick.
 struct Arrivals {
-    const Field& impulse;       ///< of a slot's stresses, if just renewed [ticks]
-    const Field& level;         ///< of a slot's last renewal
-    float open;                 ///< impulses up to this one have just been renewed
-    float period;               ///< of the block's own moves [ticks]
-    std::uint32_t levels;       ///< a bit for each that is in the stencil
-    std::uint32_t block_means;  ///< of which levels the block's mean velocity is kept
-    bool stencil_means;         ///< whether all the stencil's is, of the block's level
+    const Field& impulse;  ///< of a slot's stresses, if just renewed [ticks]
+    float open;            ///< impulses up to this one have just been renewed
+    float period;          ///< of the block's own moves [ticks]
 };
 
 /// Who moves when: local time steps in powers of two.
@@ -66,8 +60,8 @@ class Schedule {
 
     /// Whether the impulses of a block's stencil arrive all at once and for equal times.
     bool pulled_alike(std::uint32_t index, std::uint32_t tick) const {
-        return now_.pulled_alike[index] &&
-               (tick > 0 || (before_.pulled_alike[index] && shared_alike_[index]));
+        return pulled_alike_[index] &&
+               (tick > 0 || (pulled_alike_before_[index] && shared_alike_[index]));
     }
     /// A renewed stress acts for the mean of its last step and its next one, as in any
     /// leapfrog: over the next one.
@@ -77,11 +71,9 @@ class Schedule {
     Arrivals arrivals(std::uint32_t index, std::uint32_t tick) const;
 
     /// Whether all of a block's stencil moves just when its stresses are renewed.
-    bool moved_alike(std::uint32_t index) const { return now_.moved_alike[index]; }
+    bool moved_alike(std::uint32_t index) const { return moved_alike_[index]; }
     /// A bit for each level over whose steps a block's mean velocity is to be kept.
-    std::uint32_t means_wanted(std::uint32_t index) const {
-        return now_.means_wanted[index];
-    }
+    std::uint32_t means_wanted(std::uint32_t index) const { return means_wanted_[index]; }
 
     static constexpr int highest_level = 7;
 
@@ -102,14 +94,8 @@ class Schedule {
     std::vector<double> last_;  // step of the stresses in the cycle before [s]
     std::vector<float> share_;  // of the first impulse
     std::vector<bool> shared_alike_;
-    /// How blocks and stencils step in a cycle, by block.
-    struct Pattern {
-        explicit Pattern(const Packing& packing);
-        std::vector<bool> pulled_alike, moved_alike;
-        std::vector<std::uint32_t> means_wanted, levels;
-        Field level;  // of the renewals, by slot
-    };
-    Pattern now_, before_;
+    std::vector<bool> pulled_alike_, pulled_alike_before_, moved_alike_;  // by block
+    std::vector<std::uint32_t> means_wanted_;
     std::vector<std::vector<std::uint32_t>> moving_, renewed_;  // blocks, by level
     Field impulse_, first_impulse_;                             // [ticks]
 };

@@ -20,6 +20,7 @@ impact::ImpactCase small_case(const Profile& profile, double velocity) {
     impact_case.numerics.grains_per_point = 8;
     impact_case.numerics.cfl = 0.7;
     impact_case.numerics.hourglass = 0.3;
+    impact_case.numerics.linear_viscosity = 0.06;
     return impact_case;
 }
 

@@ -23,6 +23,7 @@ impact::ImpactCase short_case() {
     impact_case.numerics.grains_per_point = 8;
     impact_case.numerics.cfl = 0.7;
     impact_case.numerics.hourglass = 0.3;
+    impact_case.numerics.linear_viscosity = 0.06;
     return impact_case;
 }
 

@@ -47,7 +47,7 @@ struct Patch {
     std::unique_ptr<material::EquationOfState> equation_of_state =
         material::make_equation_of_state(impact_case.material);
     sph::Rest rest = sph::rest_state(*equation_of_state, 300);
-    sph::Reference reference{packing, rest.density, 0};
+    sph::Reference reference{packing, rest.density};
     sph::Particles particles{packing.slots};
     sph::Constitutive constitutive{
         impact_case, packing, *equation_of_state, rest,
@@ -111,7 +111,7 @@ TEST_CASE("a misfit is resisted in a narrower lattice as in a body of its size",
         specimen::make_shape(specimen::reduced_head_3mm, 8e-3, 40e-3), 4e-3 / 5);
     const auto equation_of_state = material::make_equation_of_state(impact_case.material);
     const sph::Rest rest = sph::rest_state(*equation_of_state, 300);
-    const sph::Reference reference(packing, rest.density, 0);
+    const sph::Reference reference(packing, rest.density);
     sph::Particles particles(packing.slots);
     sph::Constitutive constitutive(
         impact_case, packing, *equation_of_state, rest,

@@ -24,7 +24,7 @@ struct Bar {
 
     sph::Packing packing =
         sph::pack(specimen::make_shape(specimen::uniform_cylinder, 8e-3, 40e-3), 1e-3);
-    sph::Reference reference{packing, 8930, 0};
+    sph::Reference reference{packing, 8930};
     std::vector<std::vector<std::uint32_t>> stencils = reference.stencils(packing);
     sph::Schedule schedule{packing, stencils};
     std::vector<double> stable;

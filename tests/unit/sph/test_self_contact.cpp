@@ -44,7 +44,7 @@ struct FoldedBar {
     sph::Packing packing = sph::pack(shape, 1e-3);
     sph::Particles particles{packing.slots};
     sph::SelfContact contact{shape, packing, 8930};
-    sph::Schedule schedule{packing, sph::Reference(packing, 8930, 0).stencils(packing)};
+    sph::Schedule schedule{packing, sph::Reference(packing, 8930).stencils(packing)};
 };
 
 }  // namespace

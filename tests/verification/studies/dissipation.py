@@ -45,7 +45,7 @@ def collect():
 
 def draw(table, path):
     figure, axes = plt.subplots(
-        len(DISSIPATION_SETTINGS), len(SHAPES), figsize=(13, 9), sharex=True, sharey="row"
+        len(DISSIPATION_SETTINGS), len(SHAPES), figsize=(13, 12), sharex=True, sharey="row"
     )
     for row, setting in zip(axes, DISSIPATION_SETTINGS):
         of_setting = table[(table[SETTING] == setting).all(axis=1)]

@@ -23,8 +23,12 @@ SIZES = [
     "undeformed_length_mm",
     "diameter_at_0p2L0_mm",
 ]
-VISCOSITY = {"linear_viscosity": 0.06, "quadratic_viscosity": 1.0}  # the solver's own
-HOURGLASS = {"axisymmetric": 0.3, "3d": 0.1}
+# The solver's own coefficients.
+VISCOSITY = {
+    "axisymmetric": {"linear_viscosity": 0.06, "quadratic_viscosity": 1.0},
+    "3d": {"linear_viscosity": 0.0, "quadratic_viscosity": 1.0},
+}
+HOURGLASS = {"axisymmetric": 0.3, "3d": 1.0}
 COARSE_COLUMNS = 5  # of the coarse axisymmetric setting, which cuts heads less finely
 
 RUNS = Path("results/verification/runs")
@@ -49,7 +53,8 @@ def arguments_of(wildcards):
     numerics = {"elements_across_radius": parts["elements"], "grains_per_point": parts["grains"]}
     if parts["what"] == "viscosity":
         factor = float(parts["factor"])
-        numerics |= {key: value * factor for key, value in VISCOSITY.items()}
+        own = VISCOSITY[parts["geometry"]]
+        numerics |= {key: value * factor for key, value in own.items()}
     elif parts["what"] == "hourglass":
         numerics["hourglass"] = HOURGLASS[parts["geometry"]] * float(parts["factor"])
     columns = int(parts["elements"]) if parts["geometry"] == "axisymmetric" else None

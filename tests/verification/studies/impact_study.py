@@ -30,6 +30,7 @@ DISSIPATION_SETTINGS = [
     ("axisymmetric", 8, 16),
     ("3d", 4, 1),  # coarse
     ("3d", 6, 4),  # standard
+    ("3d", 9, 4),  # fine
 ]
 DISSIPATION_CHANGES = ["", "viscosity0.5", "hourglass0.5"]
 DISSIPATION_VELOCITY = 90

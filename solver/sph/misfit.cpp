@@ -36,6 +36,7 @@ std::vector<double> misfit_weights(const std::vector<Neighbour>& neighbours,
     const Monomials a = products.ldlt().solve(sums);
     const double mean_volume = volume / static_cast<double>(neighbours.size());
     std::vector<double> weights;
+    weights.reserve(neighbours.size());
     for (const Neighbour& n : neighbours) {
         weights.push_back(n.volume / mean_volume *
                           (1 - a.dot(monomials(n.offset / edge))) / (2 * edge * edge));

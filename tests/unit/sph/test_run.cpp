@@ -22,7 +22,7 @@ impact::ImpactCase coarse_case() {
 // 1998, doi 10.1002/(SICI)1097-0207(19980615)42:3; Foulk et al. 2021 and others).
 TEST_CASE("the 227 m/s copper bar", "[run]") {
     impact::ImpactCase impact_case = coarse_case();
-    impact_case.numerics.elements_across_radius = 5;
+    impact_case.numerics.elements_across_radius = 4;
     impact_case.shape = specimen::make_shape(specimen::uniform_cylinder, 6.4e-3, 32.4e-3);
     impact_case.velocity_m_s = 227;
     impact_case.run_until_s = 80e-6;

@@ -10,8 +10,8 @@ namespace {
 // Of the lattice over the section, both as shares of the rear's: where the rear has six
 // particles across its radius, a head or the tip of a cone has 3.4.
 constexpr double widening = 1.75;
-constexpr double cone_power =
-    0.75;                          // of the radius, by which the lattice widens in a cone
+// Of the radius, by which the lattice widens in a cone.
+constexpr double cone_power = 0.75;
 constexpr double rim_slope = 0.3;  // of a column at the rim, above a step
 constexpr int samples = 400;       // of a stretch, for its length
 

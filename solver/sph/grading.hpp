@@ -10,10 +10,10 @@ namespace taylorcal::sph {
 /// How narrow the lattice is along the axis, as a share of its edge in the rear.
 ///
 /// Thin sections have more than half as many particles across as the rear has: in the
-/// head below a step the lattice is narrower throughout, in a cone it widens more
-/// slowly than the cone does, so that few columns end on its flank: one with many
-/// steps does not fold as a smooth one. Above a step the lattice widens
-/// slowly: columns that lean soften a head that collapses.
+/// head below a step the lattice is narrower throughout. In a cone it widens more slowly
+/// than the cone does, so that few columns end on its flank: one with many steps does not
+/// fold as a smooth one. Above a step it widens slowly: columns that lean soften a head
+/// that collapses.
 class Grading {
   public:
     explicit Grading(const specimen::Shape& shape);

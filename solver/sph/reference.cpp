@@ -84,6 +84,18 @@ void Reference::find_neighbours(const Packing& packing) {
     }
 }
 
+template <class Visit>
+void Reference::visit_neighbours(std::size_t slot, const Visit& visit) const {
+    std::size_t pair = 0;
+    for (const NeighbourColumn& n : neighbours_[column_of_block_[slot / block_size]]) {
+        for (std::size_t e = 0; e < n.count; ++e, ++pair) {
+            const std::size_t j = slot + static_cast<std::size_t>(n.offset) + e;
+            if (n.steepness[e] > 0 && volume_.lanes()[j] > 0)
+                visit(pair, j, n.steepness[e]);
+        }
+    }
+}
+
 double Reference::mean_neighbours() const {
     std::size_t particles = 0;
     std::size_t pairs = 0;
@@ -92,12 +104,7 @@ double Reference::mean_neighbours() const {
             const std::size_t slot = block * block_size + k;
             if (volume_.lanes()[slot] <= 0) continue;
             ++particles;
-            for (const NeighbourColumn& n : neighbours_[column_of_block_[block]]) {
-                for (std::size_t e = 0; e < n.count; ++e) {
-                    const std::size_t j = slot + static_cast<std::size_t>(n.offset) + e;
-                    if (n.steepness[e] > 0 && volume_.lanes()[j] > 0) ++pairs;
-                }
-            }
+            visit_neighbours(slot, [&](std::size_t, std::size_t, float) { ++pairs; });
         }
     }
     return static_cast<double>(pairs) / static_cast<double>(particles);
@@ -110,20 +117,16 @@ void Reference::measure_moments(const Packing& packing) {
             if (packing.volume[slot] <= 0) continue;
             Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();
             Eigen::Vector3d first = Eigen::Vector3d::Zero();
-            for (const NeighbourColumn& n : neighbours_[column_of_block_[block]]) {
-                for (std::size_t e = 0; e < n.count; ++e) {
-                    const std::size_t j = slot + static_cast<std::size_t>(n.offset) + e;
-                    const double w =
-                        packing.volume[j] * static_cast<double>(n.steepness[e]);
-                    Eigen::Vector3d offset;
-                    for (int c = 0; c < 3; ++c) {
-                        const float* place = place_[static_cast<std::size_t>(c)].lanes();
-                        offset(c) = static_cast<double>(place[j] - place[slot]);
-                    }
-                    moment += w * offset * offset.transpose();
-                    first += w * offset;
+            visit_neighbours(slot, [&](std::size_t, std::size_t j, float steepness) {
+                const double w = packing.volume[j] * static_cast<double>(steepness);
+                Eigen::Vector3d offset;
+                for (int c = 0; c < 3; ++c) {
+                    const float* place = place_[static_cast<std::size_t>(c)].lanes();
+                    offset(c) = static_cast<double>(place[j] - place[slot]);
                 }
-            }
+                moment += w * offset * offset.transpose();
+                first += w * offset;
+            });
             const Eigen::Matrix3d inverse = moment.inverse();
             constexpr int row[6] = {0, 1, 2, 0, 0, 1};
             constexpr int column[6] = {0, 1, 2, 1, 2, 2};
@@ -140,19 +143,20 @@ void Reference::measure_moments(const Packing& packing) {
 }
 
 void Reference::measure_misfits(const Packing& packing) {
-    // A pair's place in its column's list, by the distance of its slots.
-    std::vector<std::map<std::ptrdiff_t, std::size_t>> place_in_list;
+    // A pair's number in its column's list, by the distance of its slots.
+    std::vector<std::map<std::ptrdiff_t, std::size_t>> pair_at;
     for (const auto& list : neighbours_) {
-        auto& places = place_in_list.emplace_back();
+        auto& numbers = pair_at.emplace_back();
         for (const NeighbourColumn& n : list) {
             for (std::size_t e = 0; e < n.count; ++e)
-                places.emplace(n.offset + static_cast<std::ptrdiff_t>(e), places.size());
+                numbers.emplace(n.offset + static_cast<std::ptrdiff_t>(e),
+                                numbers.size());
         }
     }
     std::size_t pairs = 0;
     for (const std::size_t block : active_) {
         first_pair_[block] = pairs;
-        pairs += place_in_list[column_of_block_[block]].size();
+        pairs += pair_at[column_of_block_[block]].size();
     }
     misfit_weight_.assign(pairs, Vector{});
     reaction_weight_.assign(pairs, Vector{});
@@ -160,36 +164,28 @@ void Reference::measure_misfits(const Packing& packing) {
         for (std::size_t k = 0; k < block_size; ++k) {
             const std::size_t slot = block * block_size + k;
             if (packing.volume[slot] <= 0) continue;
-            std::vector<std::ptrdiff_t> distances;
             std::vector<Neighbour> neighbours;
-            for (const NeighbourColumn& n : neighbours_[column_of_block_[block]]) {
-                for (std::size_t e = 0; e < n.count; ++e) {
-                    const auto d = n.offset + static_cast<std::ptrdiff_t>(e);
-                    const std::size_t j = slot + static_cast<std::size_t>(d);
-                    if (n.steepness[e] <= 0 || packing.volume[j] <= 0) continue;
-                    distances.push_back(d);
-                    neighbours.push_back(
-                        {{packing.x[j] - packing.x[slot], packing.y[j] - packing.y[slot],
-                          packing.z[j] - packing.z[slot]},
-                         packing.volume[j]});
-                }
-            }
+            visit_neighbours(slot, [&](std::size_t, std::size_t j, float) {
+                neighbours.push_back(
+                    {{packing.x[j] - packing.x[slot], packing.y[j] - packing.y[slot],
+                      packing.z[j] - packing.z[slot]},
+                     packing.volume[j]});
+            });
             const std::vector<double> weights =
                 misfit_weights(neighbours, packing.local_edge[slot]);
+            auto weight = weights.begin();
             double sum = 0;
-            for (std::size_t n = 0; n < weights.size(); ++n) {
-                const std::ptrdiff_t d = distances[n];
-                const auto own = place_in_list[column_of_block_[block]].at(d);
-                misfit_weight_[first_pair_[block] + own][k] =
-                    static_cast<float>(weights[n]);
-                sum += weights[n];
-                const std::size_t j = slot + static_cast<std::size_t>(d);
+            visit_neighbours(slot, [&](std::size_t pair, std::size_t j, float) {
+                misfit_weight_[first_pair_[block] + pair][k] =
+                    static_cast<float>(*weight);
                 const std::size_t other = j / block_size;
-                const auto back = place_in_list[column_of_block_[other]].at(-d);
+                const std::size_t back = pair_at[column_of_block_[other]].at(
+                    static_cast<std::ptrdiff_t>(slot) - static_cast<std::ptrdiff_t>(j));
                 reaction_weight_[first_pair_[other] + back][j % block_size] =
-                    static_cast<float>(weights[n] * packing.volume[slot] /
+                    static_cast<float>(*weight * packing.volume[slot] /
                                        packing.volume[j]);
-            }
+                sum += *weight++;
+            });
             weight_sum_.lanes()[slot] = static_cast<float>(sum);
         }
     }

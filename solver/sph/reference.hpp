@@ -59,6 +59,10 @@ class Reference {
     void velocity_gradient_in(Particles& particles, std::size_t block,
                               const std::array<Field, 3>& velocity) const;
     void find_neighbours(const Packing& packing);
+    /// Calls visit(pair, neighbour's slot, steepness) for the particles that one sees;
+    /// pairs are counted through its column's list.
+    template <class Visit>
+    void visit_neighbours(std::size_t slot, const Visit& visit) const;
     void measure_moments(const Packing& packing);
     void measure_misfits(const Packing& packing);
     template <class Vector, class Steps>

@@ -64,7 +64,7 @@ Numerics numerics_for(Geometry geometry, const std::string& fidelity) {
     numerics.point_update_limit = resolution.point_update_limit;
     if (geometry == Geometry::axisymmetric) {
         // Cells are stable to about 1; particles have a smaller stable step, hourglass
-        // control of another form, and ring less (the defaults).
+        // control of another form, and no need of linear viscosity (the defaults).
         numerics.cfl = 0.7;
         numerics.refined_mesh = level > 0;
         numerics.hourglass = 0.3;

@@ -12,9 +12,9 @@ struct MisfitResistance {
 };
 
 /// Moves the elastic misfit of a block for `step` [s]: du/dt = misfit rate - relaxation
-/// u, as an elastic-plastic stress would. (Damping alone lets the section of a head
-/// collapse in motions that no stress sees, and adds nothing to this.) Sets the pulls q =
-/// kappa u and returns their power per reference volume [W/m3].
+/// u, as an elastic-plastic stress would, since damping alone lets the section of a head
+/// collapse in motions that no stress sees. Sets the pulls q = kappa u and returns their
+/// power per reference volume [W/m3].
 template <class Vector>
 Vector resist_misfit(Particles& particles, std::size_t block,
                      const MisfitResistance<Vector>& resistance, float step) {

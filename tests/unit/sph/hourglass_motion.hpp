@@ -20,10 +20,10 @@ inline void set_alternating_speed(taylorcal::sph::Particles& particles,
 }
 
 /// Mean magnitude of the acceleration across the axis of the particles next to it between
-/// two heights, times their mean edge to a power.
+/// two heights, times their mean edge squared.
 inline double scaled_acceleration(const taylorcal::sph::Particles& particles,
                                   const taylorcal::sph::Packing& packing, double low,
-                                  double high, double power) {
+                                  double high) {
     double sum = 0, edge = 0;
     int count = 0;
     for (std::size_t slot = 0; slot < packing.slots; ++slot) {
@@ -36,5 +36,5 @@ inline double scaled_acceleration(const taylorcal::sph::Particles& particles,
         ++count;
     }
     REQUIRE(count > 4);
-    return sum / count * std::pow(edge / count, power);
+    return sum / count * std::pow(edge / count, 2);
 }

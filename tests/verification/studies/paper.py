@@ -46,8 +46,8 @@ COMMENTS = [
     "follow, is twice the paper's in the uniform cylinder; the paper's figures are read off maps",
     "whose place is not stated, ours are extremes over the specimen. The mean von Mises stress is",
     "that of the part that deforms at half the stop time. Heads and cone stay cooler than stated",
-    "but for the cone's tip, where in 3d hourglass control heats three particles of one grain",
-    "beyond copper's melting point (1358 K).",
+    "but for the cone's tip, whose hottest particle in 3d ends above copper's melting point",
+    "(1358 K): the model does not melt.",
 ]
 
 

@@ -7,45 +7,61 @@ namespace taylorcal::axisymmetric {
 namespace {
 
 // A node and a segment closer than this along the undeformed outline, in mean segment
-// lengths, are neighbours: at an edge the node lies behind the segment without touching
-// it, so only one that passes through it from outside is stopped.
-constexpr double neighbour_segments = 2.5;
+// lengths, may lie around an edge from each other: the node is behind the segment without
+// touching it, so only one that passes through it from outside is stopped.
+constexpr double edge_segments = 2.5;
+// Of a segment's length: a node that is less far in front of its line lies on it.
+constexpr double in_line = 1e-6;
 constexpr double reach_segments = 1.5;
 
 }  // namespace
 
 SelfContact::SelfContact(const Body& body) {
     const auto& outline = body.mesh.outline;
+    for (const std::size_t n : outline) {
+        reference_radius_.push_back(body.radius[n]);
+        reference_height_.push_back(body.height[n]);
+    }
     reference_arc_.assign(outline.size(), 0.0);
     for (std::size_t i = 1; i < outline.size(); ++i) {
-        reference_arc_[i] =
-            reference_arc_[i - 1] +
-            std::hypot(body.radius[outline[i]] - body.radius[outline[i - 1]],
-                       body.height[outline[i]] - body.height[outline[i - 1]]);
+        reference_arc_[i] = reference_arc_[i - 1] +
+                            std::hypot(reference_radius_[i] - reference_radius_[i - 1],
+                                       reference_height_[i] - reference_height_[i - 1]);
     }
     reach_ = reach_segments * reference_arc_.back() /
              static_cast<double>(std::max<std::size_t>(1, outline.size() - 1));
 }
 
+bool SelfContact::lies_behind(std::size_t node, std::size_t segment) const {
+    const double apart = edge_segments / reach_segments * reach_;
+    const double arc = reference_arc_[node];
+    if (arc <= reference_arc_[segment] - apart ||
+        arc >= reference_arc_[segment + 1] + apart)
+        return false;
+    const double edge_r = reference_radius_[segment + 1] - reference_radius_[segment];
+    const double edge_z = reference_height_[segment + 1] - reference_height_[segment];
+    const double in_front =  // times the segment's length
+        (reference_radius_[node] - reference_radius_[segment]) * edge_z -
+        (reference_height_[node] - reference_height_[segment]) * edge_r;
+    return in_front <= in_line * (edge_r * edge_r + edge_z * edge_z);
+}
+
 void SelfContact::search(const Body& body) {
     const auto& outline = body.mesh.outline;
-    const double apart = neighbour_segments / reach_segments * reach_;
     watched_.clear();
     for (std::size_t i = 0; i < outline.size(); ++i) {
         const double r = body.radius[outline[i]];
         const double z = body.height[outline[i]];
         for (std::size_t j = 0; j + 1 < outline.size(); ++j) {
             if (i == j || i == j + 1) continue;
-            const double arc = reference_arc_[i];
-            const bool neighbour =
-                arc > reference_arc_[j] - apart && arc < reference_arc_[j + 1] + apart;
             const double r0 = body.radius[outline[j]], r1 = body.radius[outline[j + 1]];
             const double z0 = body.height[outline[j]], z1 = body.height[outline[j + 1]];
             const double gap_r =
                 std::max({std::min(r0, r1) - r, r - std::max(r0, r1), 0.0});
             const double gap_z =
                 std::max({std::min(z0, z1) - z, z - std::max(z0, z1), 0.0});
-            if (gap_r < reach_ && gap_z < reach_) watched_.push_back({i, j, neighbour});
+            if (gap_r < reach_ && gap_z < reach_)
+                watched_.push_back({i, j, lies_behind(i, j)});
         }
     }
     travel_ = 0;
@@ -79,7 +95,7 @@ void SelfContact::apply(Body& body, double time_step) {
         const double normal_r = edge_z / length;
         const double normal_z = -edge_r / length;
         const double gap = from_r * normal_r + from_z * normal_z;
-        if (gap < (pair.neighbour ? 0 : -reach_)) continue;
+        if (gap < (pair.behind ? 0 : -reach_)) continue;
         const double closing =
             (body.radial_velocity[n] - (1 - share) * body.radial_velocity[a] -
              share * body.radial_velocity[b]) *

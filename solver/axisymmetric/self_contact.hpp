@@ -26,11 +26,14 @@ class SelfContact {
     struct Pair {
         std::size_t node;     ///< position in the outline
         std::size_t segment;  ///< from this position to the next
-        bool neighbour;       ///< along the undeformed outline
+        bool behind;          ///< it at an edge, without touching it
     };
     void search(const Body& body);
+    /// Whether the undeformed node lies around an edge from a segment, or on its line.
+    bool lies_behind(std::size_t node, std::size_t segment) const;
 
-    std::vector<double> reference_arc_;  ///< of the outline's nodes [m]
+    std::vector<double> reference_radius_, reference_height_;  ///< of its nodes [m]
+    std::vector<double> reference_arc_;                        ///< along the outline [m]
     std::vector<Pair> watched_;
     std::vector<std::size_t> touching_;
     double travel_ = 0;  ///< furthest that a node may have moved since the search

@@ -205,6 +205,24 @@ TEST_CASE("outline nodes that meet give up their closing velocity, momentum kept
     CHECK(body.balance.contact > 0);
 }
 
+TEST_CASE("a shoulder's node beside the corner is kept out of the head") {
+    Body body(small_case(specimen::reduced_head_4mm, 0));
+    SelfContact contact(body);
+    const auto& outline = body.mesh.outline;
+    std::size_t corner = 0;
+    while (body.height[outline[corner]] < 10e-3 - 1e-9) ++corner;
+    const std::size_t below = outline[corner - 1], beside = outline[corner + 1];
+    REQUIRE(body.radius[beside] > body.radius[outline[corner]]);
+    body.radius[beside] = body.radius[below] - 1e-9;
+    body.height[beside] = (body.height[below] + body.height[outline[corner]]) / 2;
+    body.radial_velocity[beside] = -50;
+    contact.apply(body, 1e-9);
+    CHECK(body.radial_velocity[beside] > -49);
+    CHECK(body.radial_velocity[beside] ==
+          Approx((body.radial_velocity[below] + body.radial_velocity[outline[corner]]) /
+                 2));
+}
+
 TEST_CASE("the 227 m/s copper bar at a coarse setting is near the published sizes") {
     impact::ImpactCase impact_case = small_case(specimen::uniform_cylinder, 227);
     impact_case.shape = specimen::make_shape(specimen::uniform_cylinder, 6.4e-3, 32.4e-3);

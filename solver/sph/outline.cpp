@@ -67,8 +67,9 @@ Outline::Outline(const specimen::Shape& shape, const Packing& packing)
         rings_.back().smoothed = false;
         if (std::abs(stations[s + 1] - shape.head_length) < tolerance) {
             // The head's side of the section, but held by the rear, which hardly deforms
-            // there: the gradients at the corner mix in those of the head.
-            on_station(s + 1, layer);
+            // there: the gradients at the corner mix in those of the head, which drags
+            // along the rear's lowest layer as well.
+            on_station(s + 1, layer + 1);
             rings_.back().rigid = true;
             transition_ring_ = rings_.size() - 1;
             head_radius_ = shape.station_radius[s + 1];

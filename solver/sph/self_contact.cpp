@@ -16,9 +16,10 @@ namespace {
 constexpr double half_width = 0.75;
 constexpr double search_margin = 0.4;
 // Of two surfaces that touch. Those that single particles extrapolate scatter about the
-// one that they share: with none, the outermost would hold the others apart, and heads
-// would come out too long by that much; with 0.3, a coarse skirt passes the shoulder.
-constexpr double overlap = 0.2;
+// one that they share: with none, the outermost hold the others apart, and heads come out
+// too long; with 0.2 they come out too short, with 0.3 a coarse skirt passes the
+// shoulder.
+constexpr double overlap = 0.1;
 // Cosine between the normals of two surfaces from which on they face each other. The
 // sides of a fold that has just begun, or of a corner, are joined by the continuum.
 constexpr double facing = -0.5;
@@ -30,23 +31,25 @@ Eigen::Vector3d offset(const std::array<std::vector<double>, 3>& points, std::si
             points[2][j] - points[2][i]};
 }
 
-struct Meeting {
+/// How two elements stand to each other that face each other.
+struct Stand {
     Eigen::Vector3d normal;  // from the one to the other
     double gap;              // until their surfaces touch [m]
-    double aside;            // the lesser distance along a surface, in lattice cells
+    double across;           // distance along the surfaces [m]
+    double aside;            // the same in lattice cells, the lesser of the two's
 };
 
-/// How two elements stand to each other, whose local edge is `edge` on an average, or
-/// nothing if they do not face each other.
-std::optional<Meeting> meeting(const DeformedElement& a, const DeformedElement& b,
-                               const Eigen::Vector3d& line, double edge, double cosine) {
+/// For elements whose local edge is `edge` on an average; nothing if they do not face
+/// each other.
+std::optional<Stand> stand(const DeformedElement& a, const DeformedElement& b,
+                           const Eigen::Vector3d& line, double edge, double cosine) {
     if (a.normal.dot(b.normal) > cosine) return std::nullopt;
     const Eigen::Vector3d normal = (a.normal - b.normal).normalized();
     const double along = line.dot(normal);
     if (along <= 0) return std::nullopt;
     const Eigen::Vector3d across = line - along * normal;
-    return Meeting{normal, along - a.depth - b.depth + overlap * edge,
-                   std::min((a.inverse * across).norm(), (b.inverse * across).norm())};
+    return Stand{normal, along - a.depth - b.depth + overlap * edge, across.norm(),
+                 std::min((a.inverse * across).norm(), (b.inverse * across).norm())};
 }
 
 }  // namespace
@@ -104,10 +107,10 @@ void SelfContact::find_pairs(const Particles& particles) {
         if (b <= a) return;
         const std::size_t i = surface_[a].slot, j = surface_[b].slot;
         const double edge = mean_edge(i, j);
-        const auto met =
-            meeting(deformed[a], deformed[b], offset(x, i, j), edge, nearly_facing);
-        if (!met || met->gap > search_margin * edge ||
-            met->aside > half_width + search_margin)
+        const auto stands =
+            stand(deformed[a], deformed[b], offset(x, i, j), edge, nearly_facing);
+        if (!stands || stands->gap > search_margin * edge ||
+            stands->aside > half_width + search_margin)
             return;
         facing_.emplace_back(place_of(a), place_of(b));
         pairs_.emplace_back(i, j);
@@ -144,22 +147,36 @@ const SlotPairs& SelfContact::approaching(const Particles& particles, double dur
     return pairs_;
 }
 
-void SelfContact::separate(Particles& particles, const Schedule& schedule, int level) {
-    const double dt = schedule.step(level);
+void SelfContact::find_meetings(const Particles& particles, const Schedule& schedule,
+                                int level) {
     deformed_.resize(near_.size());
+    nearest_.assign(near_.size(), INFINITY);
     for (std::size_t e = 0; e < near_.size(); ++e) {
         if (schedule.motion_level(near_[e].slot) == level)
             deformed_[e] = deform(near_[e], packing_, particles);
     }
+    meetings_.clear();
     for (const auto& [a, b] : facing_) {
         const std::size_t i = near_[a].slot, j = near_[b].slot;
         if (schedule.motion_level(i) != level) continue;
-        const auto met =
-            meeting(deformed_[a], deformed_[b], offset(particles.position, i, j),
-                    mean_edge(i, j), facing);
-        if (!met || met->aside > half_width) continue;
-        const double closing = -offset(particles.velocity, i, j).dot(met->normal);
-        const double left = std::max(met->gap, 0.0) / dt;  // until they touch
+        const auto stands =
+            stand(deformed_[a], deformed_[b], offset(particles.position, i, j),
+                  mean_edge(i, j), facing);
+        if (!stands || stands->aside > half_width) continue;
+        meetings_.push_back({a, b, stands->normal, stands->gap, stands->across});
+        nearest_[a] = std::min(nearest_[a], stands->across);
+        nearest_[b] = std::min(nearest_[b], stands->across);
+    }
+}
+
+void SelfContact::separate(Particles& particles, const Schedule& schedule, int level) {
+    const double dt = schedule.step(level);
+    find_meetings(particles, schedule, level);
+    for (const Meeting& met : meetings_) {
+        if (met.across > nearest_[met.one] && met.across > nearest_[met.other]) continue;
+        const std::size_t i = near_[met.one].slot, j = near_[met.other].slot;
+        const double closing = -offset(particles.velocity, i, j).dot(met.normal);
+        const double left = std::max(met.gap, 0.0) / dt;  // until they touch
         if (closing <= left) continue;
         const double mass_i = density_ * packing_.volume[i];
         const double mass_j = density_ * packing_.volume[j];
@@ -168,12 +185,12 @@ void SelfContact::separate(Particles& particles, const Schedule& schedule, int l
         double pulled = 0;
         for (std::size_t c = 0; c < 3; ++c) {
             const float* acceleration = particles.acceleration[c].lanes();
-            pulled += dt * met->normal(static_cast<Eigen::Index>(c)) *
+            pulled += dt * met.normal(static_cast<Eigen::Index>(c)) *
                       static_cast<double>(acceleration[i] - acceleration[j]);
         }
         lost_energy_ += 0.5 * impulse * (closing - pulled + left);
         for (std::size_t c = 0; c < 3; ++c) {
-            const double along = met->normal(static_cast<Eigen::Index>(c));
+            const double along = met.normal(static_cast<Eigen::Index>(c));
             particles.velocity[c][i] -= impulse / mass_i * along;
             particles.velocity[c][j] += impulse / mass_j * along;
         }

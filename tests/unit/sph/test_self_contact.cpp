@@ -88,6 +88,34 @@ TEST_CASE("surfaces meet where deformed particles have them", "[self_contact]") 
     CHECK(thick.contact.lost_energy() > 0);
 }
 
+TEST_CASE("what bulges meets what is opposite alone", "[self_contact]") {
+    FoldedBar bar(0.8);
+    const auto& x = bar.particles.position;
+    // The outermost particle of the lower half, at mid-height, reaches into the upper
+    // one.
+    std::size_t bulge = 0;
+    for (std::size_t slot = 0; slot < bar.packing.slots; ++slot) {
+        if (bar.packing.volume[slot] <= 0 || bar.upper(slot) || x[2][slot] < 10e-3)
+            continue;
+        if (bar.packing.volume[bulge] <= 0 || x[0][slot] > x[0][bulge] + 1e-9)
+            bulge = slot;
+    }
+    bar.particles.position[0][bulge] += bar.packing.edge;
+    bar.particles.deformation[8][bulge] = 3;  // its plane lies along many others
+    bar.separate();
+    const auto apart = [&](std::size_t i, std::size_t j) {
+        return std::hypot(x[1][i] - x[1][j], x[2][i] - x[2][j]);
+    };
+    std::size_t moved = 0;
+    for (std::size_t slot = 0; slot < bar.packing.slots; ++slot) {
+        if (bar.packing.volume[slot] <= 0 || !bar.upper(slot)) continue;
+        if (bar.particles.velocity[0][slot] == -50) continue;
+        ++moved;
+        CHECK(apart(slot, bulge) < 0.7 * bar.packing.edge);
+    }
+    CHECK(moved > 0);
+}
+
 TEST_CASE("surface elements lie on the flank and on the shoulder", "[self_contact]") {
     const auto profile = GENERATE(specimen::uniform_cylinder, specimen::reduced_head_3mm,
                                   specimen::truncated_cone);

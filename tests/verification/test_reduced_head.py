@@ -51,7 +51,7 @@ def test_the_table_is_what_the_finite_elements_compute():
 @pytest.mark.parametrize("geometry", ["axisymmetric", "3d"])
 @pytest.mark.parametrize("velocity", [50, 90])
 def test_heads_have_the_sizes_that_finite_elements_compute(solver, geometry, velocity):
-    command = [solver, "run", "--json", *head_words(velocity, geometry).split()]
+    command = [solver, "run", "--json", *head_words(velocity, geometry, "standard").split()]
     finished = subprocess.run(command, capture_output=True, text=True)
     assert finished.returncode == 0, finished.stderr
     sizes = json.loads(finished.stdout)["sizes"]

@@ -3,7 +3,8 @@
 import finite_elements
 
 SHOTS = [50, 90]  # m/s: the head folds onto its shoulder at 90
-FIDELITIES = {"axisymmetric": "standard", "3d": "standard"}
+GEOMETRIES = ["axisymmetric", "3d"]
+FIDELITIES = ["standard", "fine"]
 COLUMNS = 8  # of the finite elements in the figure
 
 MATERIAL = {
@@ -18,26 +19,27 @@ MATERIAL = {
 }
 
 
-def head_words(velocity, geometry):
+def head_words(velocity, geometry, fidelity):
     """Arguments of `solver run`; one grain a point, as all would answer the same."""
     words = f"--shape reduced_head_4mm --velocity {velocity} --numerics grains_per_point=1"
-    words += f" --geometry {geometry} --fidelity {FIDELITIES[geometry]}"
+    words += f" --geometry {geometry} --fidelity {fidelity}"
     return " ".join([words, *(f"--set {name}={value}" for name, value in MATERIAL.items())])
 
 
 def arguments_of_head(wildcards):
-    return head_words(wildcards.velocity, wildcards.geometry)
+    return head_words(wildcards.velocity, wildcards.geometry, wildcards.fidelity)
 
 
-def head_stem(velocity, geometry):
+def head_stem(velocity, geometry, fidelity):
     """Where an answer is: with .json and .h5."""
-    return f"results/verification/heads/v{velocity}_{geometry}"
+    return f"results/verification/heads/v{velocity}_{geometry}_{fidelity}"
 
 
 def head_files(wildcards):
     return [
-        head_stem(velocity, geometry) + suffix
+        head_stem(velocity, geometry, fidelity) + suffix
         for velocity in SHOTS
-        for geometry in FIDELITIES
+        for geometry in GEOMETRIES
+        for fidelity in FIDELITIES
         for suffix in [".json", ".h5"]
     ]

@@ -7,18 +7,18 @@ import finite_elements
 import h5py
 import matplotlib
 import pandas as pd
-from head_runs import COLUMNS, FIDELITIES, SHOTS, head_stem
+from head_runs import COLUMNS, FIDELITIES, GEOMETRIES, SHOTS, head_stem
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 
-STYLES = {"axisymmetric": "C0-", "3d": "C1--"}
+DRAWN = {"finite elements": "k-", "axisymmetric, fine": "C0-", "3d, fine": "C1--"}
 TOP = {50: 9.5, 90: 6.5}  # of the part that is shown [mm]
 
 
-def ours(velocity, geometry):
+def ours(velocity, geometry, fidelity):
     """A row of sizes, and height and radius of the outline [mm]."""
-    stem = head_stem(velocity, geometry)
+    stem = head_stem(velocity, geometry, fidelity)
     sizes = json.loads(Path(stem + ".json").read_text())["sizes"]
     with h5py.File(stem + ".h5") as file:
         outline = file["outline"][:]
@@ -31,7 +31,9 @@ def collect():
     for velocity in SHOTS:
         theirs, bar = finite_elements.impact(COLUMNS, velocity)
         answers = {"finite elements": (theirs, bar.outline())}
-        answers |= {geometry: ours(velocity, geometry) for geometry in FIDELITIES}
+        for geometry in GEOMETRIES:
+            for fidelity in FIDELITIES:
+                answers[f"{geometry}, {fidelity}"] = ours(velocity, geometry, fidelity)
         for method, (sizes, outline) in answers.items():
             deviations = {
                 name.replace("_mm", "_deviation_percent"): 100 * (sizes[name] / theirs[name] - 1)
@@ -45,7 +47,7 @@ def collect():
 def draw(table, outlines, path):
     figure, axes = plt.subplots(1, len(SHOTS), figsize=(11, 7))
     for axis, velocity in zip(axes, SHOTS):
-        for method, style in {"finite elements": "k-", **STYLES}.items():
+        for method, style in DRAWN.items():
             height, radius = outlines[velocity, method].T
             row = table[(table["velocity_m_s"] == velocity) & (table["method"] == method)].iloc[0]
             label = f"{method}: head {row['head_length_mm']:.3f} mm"

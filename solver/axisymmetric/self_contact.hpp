@@ -26,7 +26,7 @@ class SelfContact {
     struct Pair {
         std::size_t node;     ///< position in the outline
         std::size_t segment;  ///< from this position to the next
-        bool behind;          ///< it at an edge, without touching it
+        bool behind;          ///< the undeformed node was, as at an edge
     };
     void search(const Body& body);
     /// Whether the undeformed node lies around an edge from a segment, or on its line.

@@ -1,9 +1,10 @@
 """Taylor impact of a bar with a reduced head by axisymmetric finite elements.
 
 An independent answer for `solver run`, with which it shares no code and no discretisation: fully
-integrated four-node elements (two by two points, F-bar for the volume: de Souza Neto et al. 1996,
-doi 10.1016/0020-7683(95)00259-6), multiplicative J2 plasticity with linear hardening in logarithmic
-strains, and a shoulder that meets the head's flank by penalty, frictionless.
+integrated four-node elements (two by two points; F-bar, de Souza Neto et al. 1996, doi
+10.1016/0020-7683(95)00259-6, with the element's mean volume), multiplicative J2 plasticity with
+linear hardening in logarithmic strains, and a shoulder that meets the head's flank by penalty,
+frictionless.
 
     /usr/bin/python3 tests/verification/studies/finite_elements.py > table.csv
 """
@@ -321,10 +322,9 @@ class Bar:
 def impact(columns, velocity):
     """SIZES of a bar that has stopped, means over one period of its ringing, and the bar."""
     bar = Bar(columns, velocity)
-    time, since_stop, weights, readings = 0.0, None, [], []
+    since_stop, weights, readings = None, [], []
     while since_stop is None or since_stop < RINGING[1]:
         step = bar.advance()
-        time += step
         if since_stop is None:
             if bar.mass @ bar.vz > 0:
                 since_stop = 0.0

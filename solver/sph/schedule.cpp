@@ -10,6 +10,12 @@ namespace {
 
 constexpr double longest_growth = 1.05;  // of the finest step from one cycle to the next
 constexpr int tick_candidates = 8;       // within the factor of two between levels
+// Metal at rest bears a step near the longest for ever, but not one that goes to and fro,
+// as waves would let it that change by a hair what is stable: a specimen's rear became
+// hot. So a step that is longer than the last, by more than the finest grows and less
+// than candidates differ, must leave some room.
+constexpr double lengthening = 1.06;
+constexpr double room_to_lengthen = 1.05;
 // Levels by which the stresses of blocks that may collide are renewed less often than
 // they move. A collision changes velocities at once. Between two kicks of a stress, the
 // work that is counted by mean velocities is then not what the kicks do: with no limit,
@@ -41,8 +47,12 @@ Schedule::Schedule(const Packing& packing,
     }
 }
 
-int Schedule::level(double stable, double tick) const {
-    return std::clamp(std::ilogb(stable / tick), 0, highest_level);
+int Schedule::level(std::size_t index, double stable, double tick) const {
+    const int longest = std::clamp(std::ilogb(stable / tick), 0, highest_level);
+    const double step = std::ldexp(tick, longest);
+    const bool lengthens = last_[index] > 0 && step > lengthening * last_[index];
+    return lengthens && stable < room_to_lengthen * step ? std::max(longest - 1, 0)
+                                                         : longest;
 }
 
 void Schedule::plan(const std::vector<double>& stable) {
@@ -54,12 +64,14 @@ void Schedule::plan(const std::vector<double>& stable) {
         const double tick =
             finest_ * std::exp2(-static_cast<double>(c) / tick_candidates);
         double cost = 0;
-        for (const double s : stable) cost += std::ldexp(1 / tick, -level(s, tick));
+        for (std::size_t i = 0; i < stable.size(); ++i)
+            cost += std::ldexp(1 / tick, -level(i, stable[i], tick));
         if (cost >= lowest_cost) continue;
         lowest_cost = cost;
         tick_ = tick;
     }
-    for (std::size_t i = 0; i < stable.size(); ++i) renewal_[i] = level(stable[i], tick_);
+    for (std::size_t i = 0; i < stable.size(); ++i)
+        renewal_[i] = level(i, stable[i], tick_);
     top_ = *std::max_element(renewal_.begin(), renewal_.end());
 }
 

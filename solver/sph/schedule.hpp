@@ -78,7 +78,8 @@ class Schedule {
     static constexpr int highest_level = 7;
 
   private:
-    int level(double stable, double tick) const;
+    /// Of a block's next step, with the tick [s].
+    int level(std::size_t index, double stable, double tick) const;
     void choose_motion(const SlotPairs& pairs);
     void limit_lag(const SlotPairs& pairs);
     void share_steps();

@@ -67,8 +67,8 @@ Numerics numerics_for(Geometry geometry, const std::string& fidelity) {
         // control of another form, and no need of linear viscosity (the defaults).
         numerics.cfl = 0.7;
         numerics.refined_mesh = level > 0;
-        numerics.hourglass = 0.3;
-        numerics.linear_viscosity = 0.06;
+        numerics.hourglass = 0.1;
+        numerics.linear_viscosity = 0.04;
     }
     return numerics;
 }

@@ -41,7 +41,7 @@ def test_a_name_says_what_is_computed():
 
 def test_a_change_scales_the_solvers_own_coefficient():
     words = arguments(run_name("axisymmetric", 12, 16, "truncated_cone", 90, 1, "hourglass0.5"))
-    assert "--numerics hourglass=0.15" in words
+    assert "--numerics hourglass=0.05" in words
 
 
 def test_another_name_is_refused():

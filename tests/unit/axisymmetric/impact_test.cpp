@@ -19,8 +19,8 @@ impact::ImpactCase small_case(const Profile& profile, double velocity) {
     impact_case.numerics.elements_across_radius = 5;
     impact_case.numerics.grains_per_point = 8;
     impact_case.numerics.cfl = 0.7;
-    impact_case.numerics.hourglass = 0.3;
-    impact_case.numerics.linear_viscosity = 0.06;
+    impact_case.numerics.hourglass = 0.1;
+    impact_case.numerics.linear_viscosity = 0.04;
     return impact_case;
 }
 

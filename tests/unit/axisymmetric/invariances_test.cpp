@@ -22,8 +22,8 @@ impact::ImpactCase short_case() {
     impact_case.numerics.elements_across_radius = 6;
     impact_case.numerics.grains_per_point = 8;
     impact_case.numerics.cfl = 0.7;
-    impact_case.numerics.hourglass = 0.3;
-    impact_case.numerics.linear_viscosity = 0.06;
+    impact_case.numerics.hourglass = 0.1;
+    impact_case.numerics.linear_viscosity = 0.04;
     return impact_case;
 }
 

@@ -25,10 +25,10 @@ SIZES = [
 ]
 # The solver's own coefficients.
 VISCOSITY = {
-    "axisymmetric": {"linear_viscosity": 0.06, "quadratic_viscosity": 1.0},
+    "axisymmetric": {"linear_viscosity": 0.04, "quadratic_viscosity": 1.0},
     "3d": {"linear_viscosity": 0.0, "quadratic_viscosity": 1.0},
 }
-HOURGLASS = {"axisymmetric": 0.3, "3d": 1.0}
+HOURGLASS = {"axisymmetric": 0.1, "3d": 1.0}
 COARSE_COLUMNS = 5  # of the coarse axisymmetric setting, which cuts heads less finely
 
 RUNS = Path("results/verification/runs")

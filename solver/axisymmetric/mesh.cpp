@@ -17,8 +17,9 @@ constexpr double cone_tip_radii = 4;  // of the tip: above, a cone's cells are s
 // Where a cylinder ceases to be undeformed is decided by the elastic waves that run to
 // and fro before the plastic front, and thus by all rows: tall ones in the rear smear
 // them.
-constexpr double cylinder_foot_aspect = 0.8;
-constexpr double cylinder_growth = 0.05;  // of the aspect, a radius
+constexpr double cylinder_aspect = 0.8;        // at the foot, above its lowest rows
+constexpr double cylinder_growth = 0.05;       // a radius
+constexpr double cylinder_square_radii = 0.2;  // flat cells let the foot's rim run ahead
 // Columns of a narrow section, of those across the rear: it decides the sizes.
 constexpr double head_column_share = 3.0 / 4;
 constexpr double cone_column_share = 5.0 / 8;
@@ -50,7 +51,7 @@ Division division_of(const specimen::Profile& profile, bool refined) {
         case specimen::ProfileKind::cylinder:
             break;
     }
-    return {refined ? 10.0 / 8 : 1, cylinder_foot_aspect, 1};
+    return {refined ? 10.0 / 8 : 1, square_aspect, 1};
 }
 
 /// One stretch of the profile between two stations.
@@ -67,7 +68,9 @@ struct Section {
     double aspect_at(double height) const {
         const double radii = (height - bottom) / bottom_radius;
         if (kind == specimen::ProfileKind::cylinder)
-            return cylinder_foot_aspect + cylinder_growth * radii;
+            return radii < cylinder_square_radii
+                       ? square_aspect
+                       : cylinder_aspect + cylinder_growth * radii;
         if (!head) return square_aspect;
         if (kind != specimen::ProfileKind::tapered) return head_aspect;
         const double share = std::min(1.0, radii / cone_tip_radii);

@@ -32,7 +32,7 @@ struct Resolution {
 // scatter less and are those of more grains. In (r, z) a cell stands for a whole ring, so
 // that its grains must be averaged.
 constexpr Resolution axisymmetric_resolution[] = {
-    {5, 8, 12'000'000}, {8, 16, 100'000'000}, {12, 16, 500'000'000}};
+    {5, 8, 20'000'000}, {8, 16, 100'000'000}, {12, 16, 500'000'000}};
 constexpr Resolution three_dimensional_resolution[] = {
     {4, 1, 2'000'000'000}, {6, 4, 8'000'000'000}, {9, 4, 40'000'000'000}};
 

@@ -35,8 +35,9 @@ def test_energy_is_balanced_with_viscosity_and_hourglass_work(solver, shape):
 
 
 def test_energy_of_a_ringing_elastic_cylinder_is_balanced(solver):
-    found = descriptors(solver, "--velocity", "60", *HARD)
+    viscous = ["--numerics", "linear_viscosity=0.3"]  # the waves of fine rows lose little
+    found = descriptors(solver, "--velocity", "60", *HARD, *viscous)
     assert found["plastic_work_J"] == 0
     # Nothing else takes what the waves have lost.
-    assert found["viscous_share"] + found["hourglass_share"] > 0.02
+    assert found["viscous_share"] + found["hourglass_share"] > 0.03
     assert found["energy_error"] < 0.001

@@ -1,5 +1,6 @@
 #include "solver/sph/outline.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -9,8 +10,10 @@ namespace taylorcal::sph {
 
 namespace {
 
-constexpr int angles = 48;          // of tracers around the specimen
-constexpr double tolerance = 1e-9;  // between heights that are meant to be one [m]
+constexpr int angles = 48;            // of tracers around the specimen
+constexpr double tolerance = 1e-9;    // between heights that are meant to be one [m]
+constexpr int samples_per_edge = 24;  // of the head's section
+constexpr double alike = 1e-9;        // squared distances that are meant to be one
 
 Eigen::Vector3d carried(const Particles& particles, std::size_t slot,
                         const Eigen::Vector3d& offset) {
@@ -42,6 +45,7 @@ Outline::Outline(const specimen::Shape& shape, const Packing& packing)
       initial_rear_radius_(shape.rear_radius()) {
     const auto& stations = shape.station_height;
     std::size_t layer = 0;
+    double section_radius = shape.rear_radius();
     for (std::size_t s = 0; s + 1 < stations.size(); ++s) {
         if (stations[s + 1] <= stations[s]) continue;
         const auto on_station = [&](std::size_t station, std::size_t of_layer) {
@@ -55,10 +59,7 @@ Outline::Outline(const specimen::Shape& shape, const Packing& packing)
                packing.layers[layer].low < stations[s + 1] - tolerance;
              ++layer) {
             const double height = packing.layers[layer].height;
-            if (height < shape.head_length) {
-                transition_layer_ = layer + 1;
-                transition_ring_ = rings_.size() + 1;
-            }
+            if (height < shape.head_length) transition_ring_ = rings_.size() + 1;
             const double radius =
                 std::lerp(shape.station_radius[s], shape.station_radius[s + 1],
                           (height - stations[s]) / (stations[s + 1] - stations[s]));
@@ -72,11 +73,16 @@ Outline::Outline(const specimen::Shape& shape, const Packing& packing)
             on_station(s + 1, layer + 1);
             rings_.back().rigid = true;
             transition_ring_ = rings_.size() - 1;
-            head_radius_ = shape.station_radius[s + 1];
+            section_radius = shape.station_radius[s + 1];
         } else {
             on_station(s + 1, layer - 1);
         }
     }
+    const auto above = std::find_if(
+        packing.layers.begin(), packing.layers.end(),
+        [&](const Layer& of_layer) { return of_layer.height >= shape.head_length; });
+    section_ = divide_section(static_cast<std::size_t>(above - packing.layers.begin()),
+                              section_radius);
 }
 
 Outline::Ring Outline::make_ring(std::size_t layer, double height, double radius,
@@ -97,12 +103,65 @@ Outline::Ring Outline::make_ring(std::size_t layer, double height, double radius
     return ring;
 }
 
-double Outline::plane_height(const Particles& particles, std::size_t layer, double height,
-                             double radius) const {
+/// By samples, as the particles' own patches end at the rear's flank and not at the
+/// head's. The section is steep near its rim: a mean over the particles whose places lie
+/// within it would depend by a per cent on where the lattice has them.
+std::vector<Outline::Piece> Outline::divide_section(std::size_t layer,
+                                                    double radius) const {
+    const std::vector<std::size_t>& slots = layer_slots_[layer];
+    const double spacing = packing_.layers[layer].edge / samples_per_edge;
+    const double rise = head_length_ - packing_.layers[layer].height;
+    const int reach = static_cast<int>(std::ceil(radius / spacing));
+    std::vector<Piece> pieces;
+    for (const std::size_t slot : slots) pieces.push_back({{slot, 0, 0, rise}, 0});
+    double total = 0;
+    std::vector<std::size_t> owners;
+    for (int i = -reach; i < reach; ++i) {
+        for (int j = -reach; j < reach; ++j) {
+            const double x = (i + 0.5) * spacing, y = (j + 0.5) * spacing;
+            if (std::hypot(x, y) >= radius) continue;
+            // Equally near ones share a sample, which keeps the lattice's symmetry.
+            double least = INFINITY;
+            for (std::size_t k = 0; k < slots.size(); ++k) {
+                const double dx = x - packing_.x[slots[k]];
+                const double dy = y - packing_.y[slots[k]];
+                const double square = dx * dx + dy * dy;
+                if (square > least * (1 + alike)) continue;
+                if (square < least * (1 - alike)) owners.clear();
+                least = std::min(least, square);
+                owners.push_back(k);
+            }
+            const double part = 1 / static_cast<double>(owners.size());
+            for (const std::size_t k : owners) {
+                pieces[k].share += part;
+                pieces[k].middle.x += part * (x - packing_.x[slots[k]]);
+                pieces[k].middle.y += part * (y - packing_.y[slots[k]]);
+            }
+            total += 1;
+        }
+    }
+    std::erase_if(pieces, [](const Piece& piece) { return piece.share == 0; });
+    for (Piece& piece : pieces) {
+        piece.middle.x /= piece.share;
+        piece.middle.y /= piece.share;
+        piece.share /= total;
+    }
+    return pieces;
+}
+
+double Outline::section_height(const Particles& particles) const {
+    double height = 0;
+    for (const auto& [middle, share] : section_)
+        height +=
+            share * carried(particles, middle.slot, {middle.x, middle.y, middle.z}).z();
+    return height;
+}
+
+double Outline::plane_height(const Particles& particles, std::size_t layer,
+                             double height) const {
     const double rise = height - packing_.layers[layer].height;
     double sum = 0, volume = 0;
     for (const std::size_t slot : layer_slots_[layer]) {
-        if (std::hypot(packing_.x[slot], packing_.y[slot]) > radius) continue;
         sum += packing_.volume[slot] * carried(particles, slot, {0, 0, rise}).z();
         volume += packing_.volume[slot];
     }
@@ -118,8 +177,7 @@ observe::DeformedProfile Outline::measure(const Particles& particles) const {
     profile.initial_rear_radius = initial_rear_radius_;
     profile.total_length =
         plane_height(particles, last, packing_.layers[last].high) - face;
-    profile.transition_height =
-        plane_height(particles, transition_layer_, head_length_, head_radius_) - face;
+    profile.transition_height = section_height(particles) - face;
 
     std::vector<double> heights, radii;
     for (const Ring& ring : rings_) {

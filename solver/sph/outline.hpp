@@ -37,19 +37,26 @@ class Outline {
         bool smoothed;  // has both neighbours in the same stretch of the profile
         bool rigid;     // moves with its particles but does not deform with them
     };
-    /// Mean height of the material plane at a reference height within or beside a layer,
-    /// up to a reference radius.
-    double plane_height(const Particles& particles, std::size_t layer, double height,
-                        double radius = INFINITY) const;
+    /// Where a particle of the layer above carries the head's section: the middle of what
+    /// it owns of it.
+    struct Piece {
+        Tracer middle;
+        double share;  // of the section's area
+    };
+
+    /// Mean height of the material plane at a reference height within or beside a layer.
+    double plane_height(const Particles& particles, std::size_t layer,
+                        double height) const;
+    double section_height(const Particles& particles) const;
+    std::vector<Piece> divide_section(std::size_t layer, double radius) const;
     Ring make_ring(std::size_t layer, double height, double radius, bool smoothed) const;
 
     const Packing& packing_;
     std::vector<std::vector<std::size_t>> layer_slots_;
     std::vector<Ring> rings_;
     std::size_t transition_ring_ = 0;
-    std::size_t transition_layer_ = 0;  // just above the head-rear section
     double head_length_;
-    double head_radius_ = INFINITY;  // of the head at the head-rear section
+    std::vector<Piece> section_;  // between head and rear
     double initial_length_;
     double initial_rear_radius_;
 };

@@ -28,6 +28,16 @@ double volume_below(const specimen::Shape& shape, double height) {
     return volume;
 }
 
+double mean_radius_of_lowest_layer(const sph::Packing& packing) {
+    const std::vector<std::size_t> slots = packing.slots_by_layer().front();
+    double sum = 0, volume = 0;
+    for (const std::size_t slot : slots) {
+        sum += packing.volume[slot] * std::hypot(packing.x[slot], packing.y[slot]);
+        volume += packing.volume[slot];
+    }
+    return sum / volume;
+}
+
 }  // namespace
 
 TEST_CASE("particles have the mass of the profile, in total and by slice", "[packing]") {
@@ -133,11 +143,35 @@ TEST_CASE("the head-rear section is the head's, held by the rear", "[outline]") 
     const double radius = shape.station_radius.front();
     for (std::size_t slot = 0; slot < packing.slots; ++slot) {
         // The shoulder bends up, and the corner's particles are sheared outwards.
-        if (std::hypot(packing.x[slot], packing.y[slot]) > radius)
+        if (std::hypot(packing.x[slot], packing.y[slot]) > radius + packing.edge)
             particles.position[2][slot] += 0.1e-3;
         particles.deformation[0][slot] = particles.deformation[4][slot] = 1.5;
     }
     const observe::DeformedProfile profile = outline.measure(particles);
     CHECK(profile.transition_height == Approx(shape.head_length).epsilon(1e-9));
     CHECK(profile.transition_radius == Approx(radius).epsilon(1e-9));
+}
+
+TEST_CASE("the section's height is its mean over the area, wherever the lattice has it",
+          "[outline]") {
+    const specimen::Shape shape = specimen::make_shape(specimen::reduced_head_4mm);
+    const double edge = GENERATE(0.36e-3, 0.44e-3, 0.5e-3, 0.67e-3);
+    const sph::Packing packing = sph::pack(shape, edge);
+    sph::Particles particles(packing.slots);
+    particles.position = {packing.x, packing.y, packing.z};
+    // As steep as at the corner of a head that has folded. Every particle's deformation
+    // has the same height over its own surroundings.
+    constexpr double slope = -1;
+    const double radius = shape.station_radius.front();
+    for (std::size_t slot = 0; slot < packing.slots; ++slot) {
+        const double r = std::hypot(packing.x[slot], packing.y[slot]);
+        if (packing.volume[slot] <= 0 || r == 0) continue;
+        particles.position[2][slot] += slope * r;
+        particles.deformation[6][slot] = slope * packing.x[slot] / r;
+        particles.deformation[7][slot] = slope * packing.y[slot] / r;
+    }
+    const sph::Outline outline(shape, packing);
+    const double face = slope * mean_radius_of_lowest_layer(packing);
+    const double risen = outline.measure(particles).transition_height + face;
+    CHECK(risen - shape.head_length == Approx(slope * radius * 2 / 3).epsilon(0.02));
 }

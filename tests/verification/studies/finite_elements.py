@@ -22,8 +22,8 @@ POISSON_RATIO = 0.34
 SHEAR_MODULUS = 1.5 * BULK_MODULUS * (1 - 2 * POISSON_RATIO) / (1 + POISSON_RATIO)
 GRUNEISEN = 2.0
 HEATING_SHARE = 0.9  # of plastic work
-YIELD_STRESS = 350e6  # Pa
-HARDENING_MODULUS = 300e6  # Pa
+METALS = {"hard": (350e6, 300e6), "soft": (100e6, 500e6)}  # yield stress, hardening modulus [Pa]
+CASES = [("hard", 50), ("hard", 90), ("soft", 90)]  # metals and velocities [m/s]
 
 HEAD_RADIUS, HEAD_LENGTH = 2e-3, 10e-3  # m
 REAR_RADIUS, LENGTH = 4e-3, 40e-3  # m
@@ -120,9 +120,10 @@ def make_mesh(columns):
 
 
 class Bar:
-    """A bar that hits a rigid anvil at height 0 at `velocity` [m/s]."""
+    """A bar of one of METALS that hits a rigid anvil at height 0 at `velocity` [m/s]."""
 
-    def __init__(self, columns, velocity):
+    def __init__(self, columns, velocity, metal):
+        self.yield_stress, self.hardening_modulus = METALS[metal]
         self.mesh = mesh = make_mesh(columns)
         self.size = HEAD_RADIUS / columns
         self.r, self.z = mesh.radius.copy(), mesh.height.copy()
@@ -161,11 +162,12 @@ class Bar:
         mean = strain.mean(0)
         stress = 2 * SHEAR_MODULUS * (strain - mean)
         equivalent = np.sqrt(1.5 * (stress**2).sum(0))
-        flow = YIELD_STRESS + HARDENING_MODULUS * self.plastic_strain
-        slip = np.maximum(equivalent - flow, 0) / (3 * SHEAR_MODULUS + HARDENING_MODULUS)
+        flow = self.yield_stress + self.hardening_modulus * self.plastic_strain
+        stiffness = 3 * SHEAR_MODULUS + self.hardening_modulus
+        slip = np.maximum(equivalent - flow, 0) / stiffness
         kept = 1 - 3 * SHEAR_MODULUS * slip / np.maximum(equivalent, 1.0)
         self.plastic_strain += slip
-        self.heat += HEATING_SHARE * (flow + HARDENING_MODULUS * slip) * slip
+        self.heat += HEATING_SHARE * (flow + self.hardening_modulus * slip) * slip
         stress = stress * kept
 
         b_1, b_2, b_hoop = np.exp(2 * (mean + (strain - mean) * kept))
@@ -319,9 +321,9 @@ class Bar:
         return 1e3 * np.column_stack([self.z[nodes] - self.plane(0.0, HEAD_RADIUS), self.r[nodes]])
 
 
-def impact(columns, velocity):
+def impact(columns, velocity, metal):
     """SIZES of a bar that has stopped, means over one period of its ringing, and the bar."""
-    bar = Bar(columns, velocity)
+    bar = Bar(columns, velocity, metal)
     since_stop, weights, readings = None, [], []
     while since_stop is None or since_stop < RINGING[1]:
         step = bar.advance()
@@ -336,19 +338,29 @@ def impact(columns, velocity):
     return dict(zip(SIZES, np.average(readings, axis=0, weights=weights))), bar
 
 
+def computed(table, metal, velocity, columns):
+    """SIZES in a row of a table that this program has printed."""
+    case = {"metal": metal, "velocity_m_s": str(velocity), "columns_in_head": str(columns)}
+    with open(table, newline="") as file:
+        for row in csv.DictReader(file):
+            if case.items() <= row.items():
+                return {name: float(row[name]) for name in SIZES}
+    raise LookupError(f"{table} has no row for {case}")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--columns", type=int, nargs="+", default=[4, 8, 12])
-    parser.add_argument("--velocity-m-s", type=int, nargs="+", default=[50, 90])
     arguments = parser.parse_args()
     table = csv.DictWriter(
-        sys.stdout, ["velocity_m_s", "columns_in_head", *SIZES], lineterminator="\n"
+        sys.stdout, ["metal", "velocity_m_s", "columns_in_head", *SIZES], lineterminator="\n"
     )
     table.writeheader()
-    for velocity in arguments.velocity_m_s:
+    for metal, velocity in CASES:
         for columns in arguments.columns:
-            sizes = {name: f"{size:.4f}" for name, size in impact(columns, velocity)[0].items()}
-            table.writerow({"velocity_m_s": velocity, "columns_in_head": columns, **sizes})
+            sizes, _ = impact(columns, velocity, metal)
+            row = {"metal": metal, "velocity_m_s": velocity, "columns_in_head": columns}
+            table.writerow(row | {name: f"{size:.4f}" for name, size in sizes.items()})
             sys.stdout.flush()
 
 

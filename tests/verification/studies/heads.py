@@ -29,7 +29,7 @@ def collect():
     """Rows by shot and method, and the outlines by the same."""
     rows, outlines = [], {}
     for velocity in SHOTS:
-        theirs, bar = finite_elements.impact(COLUMNS, velocity)
+        theirs, bar = finite_elements.impact(COLUMNS, velocity, "hard")
         answers = {"finite elements": (theirs, bar.outline())}
         for geometry in GEOMETRIES:
             for fidelity in FIDELITIES:

@@ -30,7 +30,7 @@ def collect():
                 name.replace("_mm", "_deviation_percent"): 100 * (sizes[name] / theirs[name] - 1)
                 for name in theirs
             }
-            case = {"geometry": geometry, "elements": elements, "cpu_s": answer["cpu_s"]}
+            case = {"geometry": geometry, "elements": elements}
             rows.append(case | sizes | deviations)
     return pd.DataFrame(rows)
 

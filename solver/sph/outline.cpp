@@ -113,6 +113,7 @@ std::vector<Outline::Piece> Outline::divide_section(std::size_t layer,
     const double rise = head_length_ - packing_.layers[layer].height;
     const int reach = static_cast<int>(std::ceil(radius / spacing));
     std::vector<Piece> pieces;
+    pieces.reserve(slots.size());
     for (const std::size_t slot : slots) pieces.push_back({{slot, 0, 0, rise}, 0});
     double total = 0;
     std::vector<std::size_t> owners;

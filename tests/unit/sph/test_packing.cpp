@@ -159,8 +159,8 @@ TEST_CASE("the section's height is its mean over the area, wherever the lattice 
     const sph::Packing packing = sph::pack(shape, edge);
     sph::Particles particles(packing.slots);
     particles.position = {packing.x, packing.y, packing.z};
-    // As steep as at the corner of a head that has folded. Every particle's deformation
-    // has the same height over its own surroundings.
+    // As steep as at the corner of a head that has folded; each particle's deformation
+    // follows the height around it.
     constexpr double slope = -1;
     const double radius = shape.station_radius.front();
     for (std::size_t slot = 0; slot < packing.slots; ++slot) {

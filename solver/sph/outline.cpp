@@ -40,7 +40,6 @@ Eigen::Vector3d beside(const Particles& particles, std::size_t slot,
 Outline::Outline(const specimen::Shape& shape, const Packing& packing)
     : packing_(packing),
       layer_slots_(packing.slots_by_layer()),
-      head_length_(shape.head_length),
       initial_length_(shape.length()),
       initial_rear_radius_(shape.rear_radius()) {
     const auto& stations = shape.station_height;
@@ -82,7 +81,7 @@ Outline::Outline(const specimen::Shape& shape, const Packing& packing)
         packing.layers.begin(), packing.layers.end(),
         [&](const Layer& of_layer) { return of_layer.height >= shape.head_length; });
     section_ = divide_section(static_cast<std::size_t>(above - packing.layers.begin()),
-                              section_radius);
+                              shape.head_length, section_radius);
 }
 
 Outline::Ring Outline::make_ring(std::size_t layer, double height, double radius,
@@ -106,11 +105,11 @@ Outline::Ring Outline::make_ring(std::size_t layer, double height, double radius
 /// By samples, as the particles' own patches end at the rear's flank and not at the
 /// head's. The section is steep near its rim: a mean over the particles whose places lie
 /// within it would depend by a per cent on where the lattice has them.
-std::vector<Outline::Piece> Outline::divide_section(std::size_t layer,
+std::vector<Outline::Piece> Outline::divide_section(std::size_t layer, double height,
                                                     double radius) const {
     const std::vector<std::size_t>& slots = layer_slots_[layer];
     const double spacing = packing_.layers[layer].edge / samples_per_edge;
-    const double rise = head_length_ - packing_.layers[layer].height;
+    const double rise = height - packing_.layers[layer].height;
     const int reach = static_cast<int>(std::ceil(radius / spacing));
     std::vector<Piece> pieces;
     pieces.reserve(slots.size());

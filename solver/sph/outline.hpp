@@ -48,14 +48,14 @@ class Outline {
     double plane_height(const Particles& particles, std::size_t layer,
                         double height) const;
     double section_height(const Particles& particles) const;
-    std::vector<Piece> divide_section(std::size_t layer, double radius) const;
+    std::vector<Piece> divide_section(std::size_t layer, double height,
+                                      double radius) const;
     Ring make_ring(std::size_t layer, double height, double radius, bool smoothed) const;
 
     const Packing& packing_;
     std::vector<std::vector<std::size_t>> layer_slots_;
     std::vector<Ring> rings_;
     std::size_t transition_ring_ = 0;
-    double head_length_;
     std::vector<Piece> section_;  // between head and rear
     double initial_length_;
     double initial_rear_radius_;

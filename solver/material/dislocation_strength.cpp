@@ -104,6 +104,11 @@ void DislocationStrength<Real, variant>::advance(Block& block,
     step.shear_modulus = input.shear_modulus;
     step.sound_speed = lane_sqrt(step.shear_modulus / V(input.density));
     step.drag = parameters_.drag_constant + parameters_.drag_slope * V(input.temperature);
+    // S follows dS = 2 G de. With S = 2 G(P) e of a large e the pressure would change S,
+    // but no strain the pressure in return: vibrations of metal that hardly slips would
+    // gain energy.
+    const V kept = block.shear_modulus * lane_inverse(step.shear_modulus);
+    for (int k = 0; k < 5; ++k) block.elastic[k] *= kept;
     block.shear_modulus = step.shear_modulus;
     block.temperature = input.temperature;
     step.duration = input.time_step;

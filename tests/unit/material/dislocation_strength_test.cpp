@@ -51,6 +51,22 @@ TEST_CASE("below the threshold the answer is Hooke's, whatever the orientation")
     CHECK(strength->state(0).mobile_density_m2 == Approx(12e11));
 }
 
+TEST_CASE("a shear modulus that changes takes effect in what is strained from then on") {
+    auto strength = make_strength<double>(Parameters{}, {tilted});
+    BlockOutput<double> output;
+    strength->update(0, motion<double>(compression(1e3), 2e-8), output);
+    const Eigen::Matrix3d before = stress(output);
+    BlockInput<double> squeezed = motion<double>(Eigen::Matrix3d::Zero(), 2e-8);
+    squeezed.shear_modulus *= 1.2;
+    strength->update(0, squeezed, output);
+    CHECK((stress(output) - before).norm() < 1e-9 * before.norm());
+    squeezed = motion<double>(compression(1e3), 2e-8);
+    squeezed.shear_modulus *= 1.2;
+    strength->update(0, squeezed, output);
+    CHECK((stress(output) - 2.2 * before).norm() < 1e-9 * before.norm());
+    CHECK(output.plastic_power[0] == 0);
+}
+
 TEST_CASE("a rigid rotation turns the lab stress and leaves the crystal's alone") {
     Parameters elastic;
     elastic.initial_yield_stress = 1e12;

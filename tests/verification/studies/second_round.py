@@ -91,6 +91,7 @@ def draw(runs, errors, draws, path):
         np.arange(len(shapes)), [shape_words(shape) for shape in shapes], rotation=20
     )
     axes[0].set_ylabel("RMS error near the posterior [%]")
+    axes[0].set_ylim(top=1.3 * axes[0].get_ylim()[1])  # room for the legend
     axes[0].legend(fontsize=8)
     for axis, (x, y) in zip(axes[1:], PAIRS):
         for key in ROUNDS:

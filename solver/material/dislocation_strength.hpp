@@ -16,7 +16,8 @@ namespace taylorcal::material {
 ///
 /// Everything is kept in the crystal frame, which rotates with the spin W: there the
 /// rotation terms of Eqs. 5-7 and 10 vanish, S = 2 G e with e = dev(u) - w, and
-/// de/dt = dev(D) - wdot. A step solves the backward-Euler equations of e together with
+/// de/dt = dev(D) - wdot. Where the pressure changes G, it is S that stays, and e that
+/// changes (dS = 2 G de). A step solves the backward-Euler equations of e together with
 /// the drag roots of the twelve systems by Newton's method.
 template <class Real, simd::Variant variant>
 class DislocationStrength final : public Strength<Real> {

@@ -107,7 +107,7 @@ void DislocationStrength<Real, variant>::advance(Block& block,
     // S follows dS = 2 G de. With S = 2 G(P) e of a large e the pressure would change S,
     // but no strain the pressure in return: vibrations of metal that hardly slips would
     // gain energy.
-    const V kept = block.shear_modulus * lane_inverse(step.shear_modulus);
+    const V kept = block.shear_modulus / step.shear_modulus;  // 1 if it stays the same
     for (int k = 0; k < 5; ++k) block.elastic[k] *= kept;
     block.shear_modulus = step.shear_modulus;
     block.temperature = input.temperature;

@@ -67,6 +67,19 @@ TEST_CASE("a shear modulus that changes takes effect in what is strained from th
     CHECK(output.plastic_power[0] == 0);
 }
 
+TEST_CASE("elastic stress at rest does not fade, however often it is asked for") {
+    auto strength = make_strength<float>(Parameters{}, {tilted});
+    BlockOutput<float> output;
+    strength->update(0, motion<float>(compression(1e3), 5e-8), output);
+    const Eigen::Matrix3d before = stress(output);
+    for (const float squeeze : {1.0f, 1.013f, 1.047f, 1.079f}) {
+        BlockInput<float> at_rest = motion<float>(Eigen::Matrix3d::Zero(), 1e-8);
+        at_rest.shear_modulus *= squeeze;
+        for (int i = 0; i < 20000; ++i) strength->update(0, at_rest, output);
+        CHECK((stress(output) - before).norm() < 1e-5 * before.norm());
+    }
+}
+
 TEST_CASE("a rigid rotation turns the lab stress and leaves the crystal's alone") {
     Parameters elastic;
     elastic.initial_yield_stress = 1e12;

@@ -35,7 +35,8 @@ struct Division {
 
 /// Refined divisions are what brings sizes to their limits within 1 % or so
 /// (tests/verification, convergence); the others take a third of the time. Narrow columns
-/// at the rim follow the foot as it spreads, wide ones on the axis take longer steps.
+/// at the rim follow the foot as it spreads and cost nothing, for it is the flattened
+/// cells' height that sets their steps.
 /// Heads of other widths are cut as the nearer of the paper's two.
 Division division_of(const specimen::Profile& profile, bool refined) {
     constexpr double between_heads =
@@ -45,9 +46,9 @@ Division division_of(const specimen::Profile& profile, bool refined) {
         case specimen::ProfileKind::stepped:
             if (profile.end_radius > between_heads)
                 return refined ? Division{11.0 / 8, 2, 1} : Division{1, 2, 1};
-            return refined ? Division{9.0 / 8, 3, 0.8} : Division{1, 2, 1};
+            return refined ? Division{9.0 / 8, 2, 0.8} : Division{1, 2, 1};
         case specimen::ProfileKind::tapered:
-            return refined ? Division{1, 3, 0.6} : Division{1, 6, 1};
+            return refined ? Division{1, 2, 0.25} : Division{1, 6, 1};
         case specimen::ProfileKind::cylinder:
             break;
     }

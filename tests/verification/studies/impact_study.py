@@ -15,8 +15,12 @@ SERIES = [
     ("3d", 4, [12], AT_90),
     ("3d", 16, [4, 6], AT_90),
 ]
-# One run's sizes scatter by more than what is left of the mesh in fine cells.
-CONVERGENCE_SEEDS = {"axisymmetric": [1, 2, 3], "3d": [1]}
+# Sizes of single runs scatter by more than what is left of the mesh in fine cells, and by as
+# much as parts the two geometries. Particles have several seeds where those are compared: as
+# many across as `standard` and `fine` have, four grains each.
+CELL_SEEDS = range(1, 7)
+PARTICLE_SEEDS = range(1, 4)
+COMPARED_PARTICLES = [6, 9]
 NOISE_SETTINGS = [
     ("axisymmetric", 5, 8),
     ("axisymmetric", 8, 16),
@@ -47,7 +51,12 @@ def convergence_cases(series):
 def convergence_names(series, case):
     """One a seed."""
     geometry, grains, *_ = series
-    return [run_name(geometry, case[0], grains, *case[1:], s) for s in CONVERGENCE_SEEDS[geometry]]
+    seeds = [1]
+    if geometry == "axisymmetric":
+        seeds = CELL_SEEDS
+    elif grains == 4 and case[0] in COMPARED_PARTICLES:
+        seeds = PARTICLE_SEEDS
+    return [run_name(geometry, case[0], grains, *case[1:], seed) for seed in seeds]
 
 
 def convergence_runs():

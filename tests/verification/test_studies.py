@@ -17,6 +17,7 @@ sys.path.insert(0, str(ROOT / "tests" / "verification" / "studies"))
 
 import convergence  # noqa: E402
 import sample  # noqa: E402
+import two_geometries  # noqa: E402
 import two_solvers  # noqa: E402
 from impact_runs import SHAPES, SIZES, arguments_of, run_name  # noqa: E402
 from paper_calibration import level_that_holds, rate_of  # noqa: E402
@@ -90,6 +91,30 @@ def test_the_limit_is_that_of_a_line_in_the_width_of_refined_cells():
     assert deviations.iloc[-1] == pytest.approx(100 * (30 / 30.5 - 1))
     from_limit = convergence.from_extrapolated(table)["final_length_mm"]
     assert from_limit["cone", 90, 8] == pytest.approx(100 * (31 / 30 - 1))
+
+
+def test_particles_are_compared_with_the_finest_cells_by_their_means():
+    def row(case, geometry, grains, elements, length, scatter_percent, seeds):
+        sizes = dict.fromkeys(SIZES, 10.0) | {"final_length_mm": length}
+        scatter = {f"{size}_scatter_percent": scatter_percent for size in SIZES}
+        kind = {"geometry": geometry, "grains": grains, "elements": elements, "seeds": seeds}
+        return dict(zip(["shape", "velocity_m_s"], case)) | kind | sizes | scatter | {"cpu_s": 1}
+
+    rows = []
+    for case in two_geometries.CASES:
+        rows.append(row(case, "axisymmetric", 16, 8, 50, 0, 6))
+        rows.append(row(case, "axisymmetric", 16, 16, 30, 0.6, 4))
+        rows.append(row(case, "3d", 1, 9, 40, 0, 1))
+        rows.append(row(case, "3d", 4, 6, 30.6, 0.8, 4))
+        rows.append(row(case, "3d", 4, 9, 30.3, 0.8, 4))
+    deviations = two_geometries.deviations(pd.DataFrame(rows))
+    lengths = deviations[deviations["size"] == "final_length_mm"].set_index("particles")
+    assert len(lengths) == 2 * len(two_geometries.CASES)
+    assert lengths.loc["standard", "deviation_percent"].to_list() == pytest.approx([2] * 12)
+    assert lengths.loc["fine", "deviation_percent"].to_list() == pytest.approx([1] * 12)
+    # Half of the scatter of each, the particles' of a length that is 1 % longer.
+    error = np.hypot(0.3, 0.4 * 1.01)
+    assert lengths.loc["fine", "standard_error_percent"].to_list() == pytest.approx([error] * 12)
 
 
 @pytest.mark.parametrize("target", ["accuracy", "paper"])

@@ -48,7 +48,7 @@ Division division_of(const specimen::Profile& profile, bool refined) {
                 return refined ? Division{11.0 / 8, 2, 1} : Division{1, 2, 1};
             return refined ? Division{9.0 / 8, 2, 0.8} : Division{1, 2, 1};
         case specimen::ProfileKind::tapered:
-            return refined ? Division{1, 2, 0.25} : Division{1, 6, 1};
+            return refined ? Division{1, 3, 0.25} : Division{1, 6, 1};
         case specimen::ProfileKind::cylinder:
             break;
     }

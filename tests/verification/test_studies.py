@@ -16,6 +16,7 @@ ROOT = Path(__file__).parents[2]
 sys.path.insert(0, str(ROOT / "tests" / "verification" / "studies"))
 
 import convergence  # noqa: E402
+import dissipation  # noqa: E402
 import sample  # noqa: E402
 import two_geometries  # noqa: E402
 import two_solvers  # noqa: E402
@@ -115,6 +116,16 @@ def test_particles_are_compared_with_the_finest_cells_by_their_means():
     # Half of the scatter of each, the particles' of a length that is 1 % longer.
     error = np.hypot(0.3, 0.4 * 1.01)
     assert lengths.loc["fine", "standard_error_percent"].to_list() == pytest.approx([error] * 12)
+
+
+def test_halving_compares_each_seed_with_itself():
+    def answers(*lengths):
+        return [{"sizes": dict.fromkeys(SIZES, 8.0) | {"final_length_mm": x}} for x in lengths]
+
+    row = dissipation.halving(answers(20, 40), answers(20.2, 41.2))  # 1 and 3 %
+    assert row["final_length_mm_change_percent"] == pytest.approx(2)
+    assert row["final_length_mm_standard_error_percent"] == pytest.approx(1)
+    assert row["head_length_mm_change_percent"] == 0
 
 
 @pytest.mark.parametrize("target", ["accuracy", "paper"])

@@ -1,4 +1,5 @@
-"""What halving the artificial viscosity or the hourglass control does to the sizes."""
+"""What halving the artificial viscosity or the hourglass control does to the sizes: means over
+seeds, each compared with itself, and their standard errors."""
 
 import matplotlib
 import numpy as np
@@ -8,7 +9,7 @@ from impact_study import (
     DISSIPATION_CHANGES,
     DISSIPATION_SETTINGS,
     DISSIPATION_VELOCITY,
-    dissipation_name,
+    dissipation_names,
 )
 
 matplotlib.use("Agg")
@@ -19,27 +20,36 @@ SETTING = ["geometry", "elements", "grains"]
 WORDS = {"viscosity0.5": "half the viscosity", "hourglass0.5": "half the hourglass control"}
 
 
+def halving(whole, halved):
+    """What it changes in the sizes of the same seeds [%]: means and their standard errors."""
+    before, after = (
+        pd.DataFrame([answer["sizes"] for answer in answers], columns=SIZES).astype(float)
+        for answers in (whole, halved)
+    )
+    change = 100 * (after / before - 1)
+    row = {f"{size}_change_percent": change[size].mean() for size in SIZES}
+    errors = change.std(ddof=1) / np.sqrt(len(change))
+    return row | {f"{size}_standard_error_percent": errors[size] for size in SIZES}
+
+
 def collect():
+    """One row a setting, shape and change."""
     rows = []
     for setting in DISSIPATION_SETTINGS:
         for shape in SHAPES:
-            whole = read_run(dissipation_name(setting, shape, ""))
+            answers = {
+                change: [read_run(name) for name in dissipation_names(setting, shape, change)]
+                for change in DISSIPATION_CHANGES
+            }
+            whole = answers[""]
+            shares = {
+                share: np.mean([answer["descriptors"][share] for answer in whole])
+                for share in ("viscous_share", "hourglass_share")
+            }
             for change in DISSIPATION_CHANGES[1:]:
-                halved = read_run(dissipation_name(setting, shape, change))
-                rows.append(
-                    {
-                        **dict(zip(SETTING, setting)),
-                        "shape": shape,
-                        "change": change,
-                        "viscous_share": whole["descriptors"]["viscous_share"],
-                        "hourglass_share": whole["descriptors"]["hourglass_share"],
-                        **{
-                            f"{size}_change_percent": 100
-                            * (halved["sizes"][size] / whole["sizes"][size] - 1)
-                            for size in SIZES
-                        },
-                    }
-                )
+                case = dict(zip(SETTING, setting)) | {"shape": shape, "seeds": len(whole)}
+                row = halving(whole, answers[change])
+                rows.append(case | {"change": change} | shares | row)
     return pd.DataFrame(rows)
 
 
@@ -54,9 +64,13 @@ def draw(table, path):
         for axis, shape in zip(row, SHAPES):
             part = of_setting[of_setting["shape"] == shape]
             for k, (_, line) in enumerate(part.iterrows()):
-                values = [line[f"{size}_change_percent"] for size in DRAWN]
                 axis.bar(
-                    np.arange(len(DRAWN)) + 0.4 * k - 0.2, values, 0.38, label=WORDS[line["change"]]
+                    np.arange(len(DRAWN)) + 0.4 * k - 0.2,
+                    [line[f"{size}_change_percent"] for size in DRAWN],
+                    0.38,
+                    yerr=[line[f"{size}_standard_error_percent"] for size in DRAWN],
+                    error_kw={"elinewidth": 0.8},
+                    label=WORDS[line["change"]],
                 )
             axis.axhspan(-0.5, 0.5, color="0.92", zorder=0)
             axis.set_title(
@@ -78,7 +92,8 @@ def main(table_path, figure_path):
     table = collect()
     table.round(4).to_csv(table_path, index=False)
     draw(table, figure_path)
-    print(table.round(3).to_string())
+    with pd.option_context("display.width", 300):
+        print(table.round(3).to_string())
 
 
 if __name__ == "__main__":

@@ -19,7 +19,7 @@ SERIES = [
 # much as parts the two geometries. Particles have several seeds where those are compared: as
 # many across as `standard` and `fine` have, four grains each.
 CELL_SEEDS = range(1, 7)
-PARTICLE_SEEDS = range(1, 4)
+PARTICLE_SEEDS = range(1, 3)
 COMPARED_PARTICLES = [6, 9]
 NOISE_SETTINGS = [
     ("axisymmetric", 5, 8),
@@ -38,6 +38,7 @@ DISSIPATION_SETTINGS = [
 ]
 DISSIPATION_CHANGES = ["", "viscosity0.5", "hourglass0.5"]
 DISSIPATION_VELOCITY = 90
+DISSIPATION_SEEDS = {"axisymmetric": range(1, 7), "3d": range(1, 3)}
 ENERGY_SETTINGS = [("axisymmetric", 5, 8), ("3d", 4, 1)]  # coarse
 ENERGY_VELOCITY = 120
 
@@ -81,16 +82,19 @@ def noise_runs():
     ]
 
 
-def dissipation_name(setting, shape, change):
-    return run_name(*setting, shape, DISSIPATION_VELOCITY, 1, change)
+def dissipation_names(setting, shape, change):
+    """One a seed."""
+    seeds = DISSIPATION_SEEDS[setting[0]]
+    return [run_name(*setting, shape, DISSIPATION_VELOCITY, seed, change) for seed in seeds]
 
 
 def dissipation_runs():
     return [
-        dissipation_name(setting, shape, change)
+        name
         for setting in DISSIPATION_SETTINGS
         for shape in SHAPES
         for change in DISSIPATION_CHANGES
+        for name in dissipation_names(setting, shape, change)
     ]
 
 

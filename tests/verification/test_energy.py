@@ -18,8 +18,8 @@ from impact_runs import SHAPES  # noqa: E402
 HARD = ["--set", "rho_immobile_initial=1e15", "--set", "hardening_coefficient=8"]
 
 
-def descriptors(solver, *question, geometry="axisymmetric"):
-    command = [solver, "run", "--json", "--geometry", geometry, "--fidelity", "coarse"]
+def descriptors(solver, *question, geometry="axisymmetric", fidelity="coarse"):
+    command = [solver, "run", "--json", "--geometry", geometry, "--fidelity", fidelity]
     finished = subprocess.run([*command, *question], capture_output=True, text=True)
     assert finished.returncode == 0, finished.stderr
     return json.loads(finished.stdout)["descriptors"]
@@ -41,6 +41,14 @@ def test_energy_of_a_ringing_elastic_cylinder_is_balanced(solver):
     # Nothing else takes what the waves have lost.
     assert found["viscous_share"] + found["hourglass_share"] > 0.03
     assert found["energy_error"] < 0.001
+
+
+@pytest.mark.parametrize("shape, velocity", [("reduced_head_3mm", 60), ("truncated_cone", 100)])
+def test_cells_that_step_less_often_do_not_resonate_with_their_neighbours(solver, shape, velocity):
+    hard = ["--set", "rho_immobile_initial=1e15", "--set", "hardening_coefficient=5"]
+    hard += ["--set", "immobilization_velocity=0.05"]
+    shot = ["--shape", shape, "--velocity", str(velocity)]
+    assert descriptors(solver, *shot, *hard, fidelity="standard")["energy_error"] < 0.001
 
 
 def test_a_head_of_metal_that_hardly_slips_does_not_gain_energy_in_3d(solver):

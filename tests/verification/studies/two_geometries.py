@@ -95,10 +95,11 @@ def draw_costs(axis, table, places):
         *_, cpu_s = means(table, geometry, elements)
         axis.plot(places, cpu_s, "o", markersize=4, label=f"{geometry}, {words}")
     axis.set_yscale("log")
+    axis.set_ylim(top=20 * cpu_s.max())  # room for the legend
     axis.set_xticks(places, [str(velocity) for _, velocity in CASES], fontsize=8)
     axis.set_title("cost of a run [CPU s]", fontsize=10)
     axis.grid(axis="y", alpha=0.3)
-    axis.legend(fontsize=7)
+    axis.legend(fontsize=8, ncol=2, loc="upper left")
 
 
 def draw(table, rows, path):

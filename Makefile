@@ -68,7 +68,7 @@ paper: build ## the source paper's statements beside ours, with figures
 	$(SNAKEMAKE) --snakefile tests/verification/Snakefile --cores $(JOBS) paper
 	@cat results/verification/paper.txt
 
-accuracy: build ## convergence, scatter, dissipation, bars and a random sample of runs; an hour
+accuracy: build ## convergence, scatter, dissipation, bars and a random sample of runs; two hours
 	$(SNAKEMAKE) --snakefile tests/verification/Snakefile --cores $(JOBS) accuracy
 
 # Starts from the committed runs where there are none: to compute them anew delete

@@ -14,7 +14,7 @@ constexpr int candidates = 8;        // for the shortest step, within a factor o
 // Steps longer than the shortest leave this room to what is stable. Impulses that come
 // less often than a finer neighbour's resonate with it where they are nearly as far apart
 // as can be: metal that rings without slipping gained energy.
-constexpr double room = 1.25;
+constexpr double room = 1.2;
 
 /// Largest stable step of a cell times `numerics.cfl` [s].
 double stable_step(const Body& body, std::size_t cell) {

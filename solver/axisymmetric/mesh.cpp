@@ -36,8 +36,8 @@ struct Division {
 /// Refined divisions are what brings sizes to their limits within 1 % or so
 /// (tests/verification, convergence); the others take a third of the time. Narrow columns
 /// at the rim follow the foot as it spreads and cost nothing, for it is the flattened
-/// cells' height that sets their steps.
-/// Heads of other widths are cut as the nearer of the paper's two.
+/// cells' height that sets their steps. Heads of other widths are cut as the nearer of
+/// the paper's two.
 Division division_of(const specimen::Profile& profile, bool refined) {
     constexpr double between_heads =
         (specimen::reduced_head_3mm.end_radius + specimen::reduced_head_4mm.end_radius) /

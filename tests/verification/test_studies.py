@@ -108,13 +108,12 @@ def test_particles_are_compared_with_the_finest_cells_by_their_means():
         rows.append(row(case, "3d", 1, 9, 40, 0, 1))
         rows.append(row(case, "3d", 4, 6, 30.6, 0.8, 4))
         rows.append(row(case, "3d", 4, 9, 30.3, 0.8, 4))
-    deviations = two_geometries.deviations(pd.DataFrame(rows))
+    deviations = two_geometries.deviations(convergence.add_deviations(pd.DataFrame(rows)))
     lengths = deviations[deviations["size"] == "final_length_mm"].set_index("particles")
     assert len(lengths) == 2 * len(two_geometries.CASES)
     assert lengths.loc["standard", "deviation_percent"].to_list() == pytest.approx([2] * 12)
     assert lengths.loc["fine", "deviation_percent"].to_list() == pytest.approx([1] * 12)
-    # Half of the scatter of each, the particles' of a length that is 1 % longer.
-    error = np.hypot(0.3, 0.4 * 1.01)
+    error = np.hypot(0.3, 0.4)  # half of the scatter of each
     assert lengths.loc["fine", "standard_error_percent"].to_list() == pytest.approx([error] * 12)
 
 

@@ -24,54 +24,55 @@ DRAWN = [
 WANTED = 0.5  # [%]
 FIDELITIES = dict(zip(COMPARED_PARTICLES, ["standard", "fine"]))
 CASES = [(shape, velocity) for shape in SHAPES for velocity in VELOCITIES]
+# Of the cases along an axis: shapes stand apart.
+PLACES = np.arange(len(CASES)) + np.repeat(0.5 * np.arange(len(SHAPES)), len(VELOCITIES))
 
 
-def means(table, geometry, elements):
-    """By shape and velocity: the sizes [mm], their standard errors [mm], CPU seconds."""
-    grains = 4 if geometry == "3d" else 16
-    kind = (table["geometry"] == geometry) & (table["elements"] == elements)
-    part = table[kind & (table["grains"] == grains)].set_index(["shape", "velocity_m_s"])
-    part = part.loc[CASES]
-    scatter = part[[f"{size}_scatter_percent" for size in SIZES]].set_axis(SIZES, axis=1) / 100
-    errors = (part[SIZES] * scatter).div(np.sqrt(part["seeds"]), axis=0)
-    return part[SIZES], errors, part["cpu_s"]
+def rows_of(table, geometry, grains, elements):
+    """By shape and velocity, in the order of CASES."""
+    kind = (table["geometry"] == geometry) & (table["grains"] == grains)
+    part = table[kind & (table["elements"] == elements)]
+    return part.set_index(["shape", "velocity_m_s"]).loc[CASES]
 
 
-def finest_cells(table):
-    return table.loc[table["geometry"] == "axisymmetric", "elements"].max()
+def cells_of(table, elements=None):
+    """Those of axisymmetric cells, the finest unless told."""
+    if elements is None:
+        elements = table.loc[table["geometry"] == "axisymmetric", "elements"].max()
+    return rows_of(table, "axisymmetric", 16, elements)
+
+
+def relative_errors(part):
+    """Standard errors of the seeds' means [%], a column a size."""
+    scatter = part[[f"{size}_scatter_percent" for size in SIZES]].set_axis(SIZES, axis=1)
+    return scatter.div(np.sqrt(part["seeds"]), axis=0)
 
 
 def deviations(table):
     """One row a fidelity of the particles, shape, velocity and size: percent of the cells' size."""
-    cells, cells_error, _ = means(table, "axisymmetric", finest_cells(table))
-    rows = []
+    cells_error = relative_errors(cells_of(table))
+    parts = []
     for elements, fidelity in FIDELITIES.items():
-        particles, error, _ = means(table, "3d", elements)
-        for case in CASES:
-            for size in SIZES:
-                limit = cells.loc[case, size]
-                spread = np.hypot(error.loc[case, size], cells_error.loc[case, size])
-                rows.append(
-                    {
-                        "particles": fidelity,
-                        "shape": case[0],
-                        "velocity_m_s": case[1],
-                        "size": size,
-                        "deviation_percent": 100 * (particles.loc[case, size] / limit - 1),
-                        "standard_error_percent": 100 * spread / limit,
-                    }
-                )
-    return pd.DataFrame(rows)
+        particles = rows_of(table, "3d", 4, elements)
+        errors = np.hypot(relative_errors(particles), cells_error)
+        for size in SIZES:
+            columns = {
+                "particles": fidelity,
+                "size": size,
+                "deviation_percent": particles[f"{size}_deviation_percent"],
+                "standard_error_percent": errors[size],
+            }
+            parts.append(pd.DataFrame(columns).reset_index())
+    return pd.concat(parts, ignore_index=True)
 
 
 def draw_deviations(axis, rows, size):
-    places = np.arange(len(CASES)) + np.repeat(0.5 * np.arange(len(SHAPES)), len(VELOCITIES))
     axis.axhspan(-WANTED, WANTED, color="0.92", zorder=0)
     axis.axhline(0, color="0.6", linewidth=0.8, zorder=0)
     for shift, fidelity, marker in [(-0.14, "standard", "o"), (0.14, "fine", "s")]:
         part = rows[(rows["size"] == size) & (rows["particles"] == fidelity)]
         axis.errorbar(
-            places + shift,
+            PLACES + shift,
             part["deviation_percent"],
             part["standard_error_percent"],
             marker=marker,
@@ -83,20 +84,19 @@ def draw_deviations(axis, rows, size):
     axis.set_ylim(-40, 40)
     ticks = [-30, -10, -3, -1, 0, 1, 3, 10, 30]
     axis.set_yticks(ticks, [str(tick) for tick in ticks])
-    axis.set_xticks(places, [str(velocity) for _, velocity in CASES], fontsize=8)
     axis.set_title(size.removesuffix("_mm").replace("_", " "), fontsize=10)
-    return places
 
 
-def draw_costs(axis, table, places):
-    kinds = [("axisymmetric", 8, "standard"), ("axisymmetric", finest_cells(table), "finest")]
-    kinds += [("3d", elements, fidelity) for elements, fidelity in FIDELITIES.items()]
-    for geometry, elements, words in kinds:
-        *_, cpu_s = means(table, geometry, elements)
-        axis.plot(places, cpu_s, "o", markersize=4, label=f"{geometry}, {words}")
+def draw_costs(axis, table):
+    kinds = {
+        "axisymmetric, standard": cells_of(table, 8),
+        "axisymmetric, finest": cells_of(table),
+        **{f"3d, {words}": rows_of(table, "3d", 4, n) for n, words in FIDELITIES.items()},
+    }
+    for words, part in kinds.items():
+        axis.plot(PLACES, part["cpu_s"], "o", markersize=4, label=words)
     axis.set_yscale("log")
-    axis.set_ylim(top=20 * cpu_s.max())  # room for the legend
-    axis.set_xticks(places, [str(velocity) for _, velocity in CASES], fontsize=8)
+    axis.set_ylim(top=20 * axis.get_ylim()[1])  # room for the legend
     axis.set_title("cost of a run [CPU s]", fontsize=10)
     axis.grid(axis="y", alpha=0.3)
     axis.legend(fontsize=8, ncol=2, loc="upper left")
@@ -105,13 +105,14 @@ def draw_costs(axis, table, places):
 def draw(table, rows, path):
     figure, axes = plt.subplots(2, 3, figsize=(13, 7))
     for axis, size in zip(axes.flat, DRAWN):
-        places = draw_deviations(axis, rows, size)
-    draw_costs(axes.flat[-1], table, places)
+        draw_deviations(axis, rows, size)
+    draw_costs(axes.flat[-1], table)
     for axis in axes.flat:
+        axis.set_xticks(PLACES, [str(velocity) for _, velocity in CASES], fontsize=8)
         for k, shape in enumerate(SHAPES):
             axis.annotate(
                 SHAPE_WORDS[shape],
-                (places[len(VELOCITIES) * k + 1], -0.13),
+                (PLACES[len(VELOCITIES) * k + 1], -0.13),
                 xycoords=("data", "axes fraction"),
                 ha="center",
                 va="top",

@@ -38,12 +38,6 @@ std::string direction(const ResidualGroup& group) {
     return too_small ? "too short" : "too long";
 }
 
-/// What the per cent of a group are of, where it is not the size itself.
-std::string reference_in_words(const std::string& size) {
-    if (is_outline_score(size)) return " of D0";
-    return size == "undeformed_length_mm" ? " of L0" : "";
-}
-
 std::string subject(const ResidualGroup& group) {
     const std::string size = group.size.empty() ? "" : size_in_words(group.size);
     if (group.by == "use")
@@ -61,6 +55,11 @@ std::string size_in_words(const std::string& size) {
     if (is_outline_score(size)) return fmt::format("outline, component {}", size.back());
     if (size == "diameter_at_0p2L0_mm") return "diameter at 0.2 L0";
     return with_spaces(size.substr(0, size.rfind("_mm")));
+}
+
+std::string reference_in_words(const std::string& size) {
+    if (is_outline_score(size)) return " of D0";
+    return size == "undeformed_length_mm" ? " of L0" : "";
 }
 
 std::string shape_in_words(const std::string& shape) {
@@ -85,8 +84,9 @@ std::string group_words(const ResidualGroup& group) {
                            reference_in_words(group.size), direction(group), where,
                            weight);
     if (is_beyond_errors(group))
-        return fmt::format("{} off by {:.1f} % rms{}, beyond the errors {}",
-                           subject(group), 100 * group.rms_relative, where, weight);
+        return fmt::format("{} off by {:.1f} %{} rms{}, beyond the errors {}",
+                           subject(group), 100 * group.rms_relative,
+                           reference_in_words(group.size), where, weight);
     return fmt::format("{} within the errors{} {}", subject(group), where, weight);
 }
 

@@ -9,6 +9,10 @@ struct ResidualGroup;
 /// "final length" of "final_length_mm".
 std::string size_in_words(const std::string& size);
 
+/// What the per cent of a size's deviations are of, where it is not the size itself:
+/// " of L0" of the undeformed length, which may vanish, " of D0" of an outline's scores.
+std::string reference_in_words(const std::string& size);
+
 /// "4-mm head" of "reduced_head_4mm".
 std::string shape_in_words(const std::string& shape);
 

@@ -27,16 +27,17 @@ std::string amplitude_words(const Candidate& c, const EffectEvidence& evidence) 
 std::string misfit_words(const Contrast& contrast) {
     const std::string what = fmt::format("{} of shape {}", size_in_words(contrast.size),
                                          in_words(contrast.shape));
+    const std::string reference = reference_in_words(contrast.size);
     if (contrast.what == "mean")
-        return fmt::format("measured {} is {:.1f} % {} than the model says (z = {:.1f})",
-                           what, std::abs(contrast.amount),
-                           contrast.amount > 0 ? "larger" : "smaller", contrast.z);
+        return fmt::format(
+            "measured {} is {:.1f} %{} {} than the model says (z = {:.1f})", what,
+            std::abs(contrast.amount), reference,
+            contrast.amount > 0 ? "larger" : "smaller", contrast.z);
     return fmt::format(
-        "measured {} {} with velocity against the model, by {:.1f} % from the slowest "
-        "shot "
-        "to the fastest (z = {:.1f})",
+        "measured {} {} with velocity against the model, by {:.1f} %{} from the slowest "
+        "shot to the fastest (z = {:.1f})",
         what, contrast.amount > 0 ? "rises" : "falls", 2 * std::abs(contrast.amount),
-        contrast.z);
+        reference, contrast.z);
 }
 
 std::string adequacy_words(const Adequacy& adequacy, bool is_flagged, double level) {

@@ -168,45 +168,51 @@ def _cell_label(shot: dict, cell: dict) -> str:
 
 
 def parity_chart(results: Results) -> Chart:
+    """Sizes over those before impact, so that specimens of all lengths share a scale."""
     key, words = grouping(results)
     names = list(dict.fromkeys(row[key] for row in results.used_rows))
-    colours = {name: PALETTE[index % len(PALETTE)] for index, name in enumerate(names)}
     sizes: dict[str, list] = {}
     for shot in results.comparison["shots"]:
         for cell in shot["sizes"]:
-            sizes.setdefault(cell["size"], []).append((shot, cell))
-    panels = []
-    for size, entries in sizes.items():
-        values = [value for _, cell in entries for value in (cell["measured"], cell["predicted"])]
-        margin = 0.05 * (max(values) - min(values))
-        ends = [min(values) - margin, max(values) + margin]
-        layers = [Line(ends, ends, "faint", width=1)]
-        for name in names:
-            for use, style in list(USE_SYMBOL.items())[:2]:
-                mine = [(s, c) for s, c in entries if s[key] == name and s["use"] == use]
-                if mine:
-                    layers.append(
-                        Points(
-                            [cell["predicted"] for _, cell in mine],
-                            [cell["measured"] for _, cell in mine],
-                            colours[name],
-                            y_error=[cell["sd"] for _, cell in mine],
-                            labels=[_cell_label(*entry) for entry in mine],
-                            legend=words(name),
-                            size=6,
-                            **style,
-                        )
-                    )
-        panels.append(
-            Panel(layers, size_words(size), "model, mm", "measured, mm", x_range=tuple(ends))
-        )
+            scale = size_before_impact(cell["size"], shot)
+            sizes.setdefault(cell["size"], []).append((shot, cell, scale))
     return Chart(
         "measured_against_model",
         "Measured against model",
-        "The line is agreement. Filled marks are fitted, hollow ones held back; error bars are "
-        "one standard error of the measurement.",
-        panels,
-        columns=min(3, len(panels)),
+        "Sizes over the initial length L₀ or diameter D₀. The line is agreement. Filled marks are "
+        "fitted, hollow ones held back; error bars are one standard error of the measurement.",
+        [_parity_panel(size, entries, key, names, words) for size, entries in sizes.items()],
+        columns=min(4, len(sizes)),
         row_height=290,
         legend=True,
     )
+
+
+def _parity_panel(size: str, entries: list, key: str, names: list[str], words) -> Panel:
+    values = [cell[of] / scale for _, cell, scale in entries for of in ("measured", "predicted")]
+    margin = 0.05 * (max(values) - min(values))
+    ends = [min(values) - margin, max(values) + margin]
+    layers = [Line(ends, ends, "faint", width=1)]
+    for use in ("calibrate", "validate"):
+        for index, name in enumerate(names):
+            mine = [entry for entry in entries if entry[0][key] == name and entry[0]["use"] == use]
+            if mine:
+                layers.append(
+                    Points(
+                        [cell["predicted"] / scale for _, cell, scale in mine],
+                        [cell["measured"] / scale for _, cell, scale in mine],
+                        PALETTE[index % len(PALETTE)],
+                        y_error=[cell["sd"] / scale for _, cell, scale in mine],
+                        labels=[_cell_label(shot, cell) for shot, cell, _ in mine],
+                        legend=words(name) if use == "calibrate" else "",
+                        legend_rank=index,
+                        size=6,
+                        **USE_SYMBOL[use],
+                    )
+                )
+    held_back = Points(
+        [], [], "ink", legend=USE_WORDS["validate"], legend_rank=len(names), hollow=True
+    )
+    over = "D₀" if is_radial(size) else "L₀"
+    title = f"{size_words(size)} / {over}"
+    return Panel([*layers, held_back], title, "model", "measured", x_range=tuple(ends))

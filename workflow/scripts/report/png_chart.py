@@ -12,6 +12,7 @@ from report.chart import Points, Spans
 THEME = {"ink": "#1f2328", "soft": "#5c646d", "faint": "#9aa1a9", "grid": "#e8eaed"}
 SYMBOLS = {"circle": "o", "cross": "x", "star": "*", "diamond": "D"}
 WIDTH_INCHES, PIXELS_PER_INCH = 10.4, 96
+LETTERS_A_LINE, LINE_INCHES = 125, 0.25
 STYLE = {
     "font.size": 9,
     "axes.titlesize": 9.5,
@@ -41,22 +42,34 @@ def save_png(chart: Chart, folder: Path, mark: str = "") -> None:
             if chart.shared_rows and index % chart.columns:
                 axes.tick_params(labelleft=False)
         if chart.legend:
-            entries = {}
-            for axes in grid:
-                handles, names = axes.get_legend_handles_labels()
-                entries |= dict(zip(names, handles))
-            ranks = {
-                layer.legend: layer.legend_rank
-                for panel in chart.panels
-                for layer in panel.layers
-                if isinstance(layer, Points)
-            }
-            entries = dict(sorted(entries.items(), key=lambda entry: ranks.get(entry[0], 0)))
-            columns = min(len(entries), 9)
-            if entries:
-                place = {"loc": "upper right", "ncols": columns, "fontsize": 8}
-                figure.legend(entries.values(), entries.keys(), **place)
+            _legend(figure, grid, chart)
         figure.savefig(folder / f"{chart.name}.png", dpi=150, metadata={"Software": None})
+
+
+def _legend(figure, grid, chart: Chart) -> None:
+    """Beside the title, or on a line of its own below it where both would not fit."""
+    entries = {}
+    for axes in grid:
+        handles, names = axes.get_legend_handles_labels()
+        entries |= dict(zip(names, handles))
+    ranks = {
+        layer.legend: layer.legend_rank
+        for panel in chart.panels
+        for layer in panel.layers
+        if isinstance(layer, Points)
+    }
+    entries = dict(sorted(entries.items(), key=lambda entry: ranks.get(entry[0], 0)))
+    if not entries:
+        return
+    top = 1
+    letters = len(chart.title) * 1.3 + sum(len(name) + 5 for name in entries)
+    if letters > LETTERS_A_LINE:
+        height = figure.get_figheight() + LINE_INCHES
+        figure.set_figheight(height)
+        top = 1 - LINE_INCHES / height
+        figure.get_layout_engine().set(rect=(0, 0, 1, top))
+    place = {"loc": "upper right", "bbox_to_anchor": (1, top), "ncols": min(len(entries), 9)}
+    figure.legend(entries.values(), entries.keys(), fontsize=8, **place)
 
 
 def _draw(axes, panel: Panel) -> None:

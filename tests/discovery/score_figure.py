@@ -26,6 +26,7 @@ def said(case: Case) -> str:
 
 def draw(answers: list[Answer], cases: list[Case], path: Path) -> None:
     figure, (left, right) = plt.subplots(1, 2, figsize=(15, 7), layout="constrained")
+    figure.suptitle("Blind tables made by our own solver (synthetic)")
     _shares(left, [answer for answer in answers if answer.trials])
     _verdicts(right, cases)
     figure.savefig(path, dpi=110, metadata={"Software": None})

@@ -14,7 +14,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 from matplotlib.lines import Line2D  # noqa: E402
 
-DRAWN = SIZES[:5]
+DRAWN = SIZES[:6]
 # By grains a point.
 STYLES = {
     ("axisymmetric", 16): {"marker": "o", "linestyle": "-"},
@@ -152,12 +152,12 @@ def draw(table, path):
             axis.axhspan(-1, 1, color="0.92", zorder=0)
             axis.set_title(f"{SHAPE_WORDS[shape]}, {velocity} m/s", fontsize=10)
             axis.set_yscale("symlog", linthresh=2)
-            axis.set_ylim(-40, 40)
+            axis.set_ylim(-60, 60)
             axis.set_yticks([-30, -10, -2, -1, 0, 1, 2, 10, 30])
             axis.set_yticklabels(["-30", "-10", "-2", "-1", "0", "1", "2", "10", "30"])
             axis.set_xticks([*range(4, 17, 4), LIMIT_PLACE], ["4", "8", "12", "16", r"$\infty$"])
     for axis in axes[-1]:
-        axis.set_xlabel("cells or particles across the rear's radius")
+        axis.set_xlabel("nominal cells or particles across")
     for axis in axes[:, 0]:
         axis.set_ylabel("from the finest cells [%]")
     figure.legend(handles=legend_handles(), loc="lower center", ncol=3, fontsize=9)

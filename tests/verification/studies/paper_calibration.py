@@ -40,6 +40,12 @@ TRUTH = {
     "hardening_coefficient": 2.8,
     "immobilization_velocity": 0.4,
 }
+# Alike for all parts of the table, so that widths can be compared.
+SHOWN = {
+    "rho_immobile_initial": (7e11, 6e13),
+    "hardening_coefficient": (0.8, 7),
+    "immobilization_velocity": (0, 5),
+}
 SHARE = 0.95  # of the posterior, inside the line
 ENOUGH = 1000  # effective draws for a map
 PAPER = {"rms": "0.4", "largest": "4.6", "rate": "5e4", "hours": "7"}
@@ -60,7 +66,7 @@ def draw_maps(posterior, adapted, path):
     """`adapted`: a posterior of adapted draws, whose map of all rows is shown where plain draws
     are too few for one."""
     plain = posterior.attrs["effective_sample_size"] >= ENOUGH
-    figure, axes = plt.subplots(len(PAIRS), len(PARTS), figsize=(22, 8.2))
+    figure, axes = plt.subplots(len(PAIRS), len(PARTS), figsize=(20, 8.2))
     for row, (x, y) in zip(axes, PAIRS):
         for axis, (part, words) in zip(row, PARTS.items()):
             source = adapted if part == "" and not plain else posterior
@@ -72,15 +78,17 @@ def draw_maps(posterior, adapted, path):
             level = level_that_holds(density, SHARE)
             axis.contour(*centres, density, levels=[level], colors="0.2", linewidths=0.8)
             axis.plot(TRUTH[x], TRUTH[y], "r+", markersize=9)
+            axis.set(xlim=SHOWN[x], ylim=SHOWN[y], facecolor=plt.get_cmap("Blues")(0))
             if x == "rho_immobile_initial":
                 axis.set_xscale("log")
                 axis.xaxis.set_minor_formatter(NullFormatter())
-            axis.tick_params(labelsize=7)
             if part == "":
                 axis.set_ylabel(WORDS[y])
+            else:
+                axis.tick_params(labelleft=False)
             if (x, y) == PAIRS[0]:
                 axis.set_title(words, fontsize=10)
-            axis.set_xlabel(WORDS[x], fontsize=8)
+            axis.set_xlabel(WORDS[x])
     how = "plain draws" if plain else "adapted draws, plain ones are too few"
     figure.suptitle(
         "Posterior of the synthetic table by parts; line: 95 % of it, red: what made the table. "
@@ -98,9 +106,14 @@ def draw_convergence(table, path):
     for axis, name in zip(axes, means):
         sd = shown["sd " + name.removeprefix("mean ")]
         axis.errorbar(shown["draws"], shown[name], sd, fmt="o-", capsize=3)
-        axis.set_title(name.removeprefix("mean ").replace("_", " "), fontsize=9)
+        size = name.removeprefix("mean ")
+        key = size.removeprefix("log10 ")
+        true = np.log10(TRUTH[key]) if key != size else TRUTH[key]
+        axis.axhline(true, color="tab:red", linewidth=0.8)
+        axis.set_title(f"{'log10 ' if key != size else ''}{WORDS[key]}", fontsize=9)
     axes[-1].loglog(table["draws"], table["effective_sample_size"], "o-")
     axes[-1].set_title("effective draws", fontsize=9)
+    figure.suptitle("Synthetic table: means and deviations; red: what made it", fontsize=10)
     for axis in axes:
         axis.set_xscale("log")
         axis.set_xlabel("plain draws", fontsize=8)

@@ -23,6 +23,7 @@ DRAWN = [
 ]
 WANTED = 0.5  # [%]
 FIDELITIES = dict(zip(COMPARED_PARTICLES, ["standard", "fine"]))
+STYLES = {"standard": ("o", "tab:blue"), "fine": ("s", "tab:orange")}
 CASES = [(shape, velocity) for shape in SHAPES for velocity in VELOCITIES]
 # Of the cases along an axis: shapes stand apart.
 PLACES = np.arange(len(CASES)) + np.repeat(0.5 * np.arange(len(SHAPES)), len(VELOCITIES))
@@ -69,13 +70,14 @@ def deviations(table):
 def draw_deviations(axis, rows, size):
     axis.axhspan(-WANTED, WANTED, color="0.92", zorder=0)
     axis.axhline(0, color="0.6", linewidth=0.8, zorder=0)
-    for shift, fidelity, marker in [(-0.14, "standard", "o"), (0.14, "fine", "s")]:
+    for shift, (fidelity, (marker, colour)) in zip((-0.14, 0.14), STYLES.items()):
         part = rows[(rows["size"] == size) & (rows["particles"] == fidelity)]
         axis.errorbar(
             PLACES + shift,
             part["deviation_percent"],
             part["standard_error_percent"],
             marker=marker,
+            color=colour,
             markersize=4,
             linestyle="",
             label=f"3d, {fidelity}",
@@ -88,13 +90,16 @@ def draw_deviations(axis, rows, size):
 
 
 def draw_costs(axis, table):
-    kinds = {
-        "axisymmetric, standard": cells_of(table, 8),
-        "axisymmetric, finest": cells_of(table),
-        **{f"3d, {words}": rows_of(table, "3d", 4, n) for n, words in FIDELITIES.items()},
-    }
-    for words, part in kinds.items():
-        axis.plot(PLACES, part["cpu_s"], "o", markersize=4, label=words)
+    kinds = [
+        ("axisymmetric, standard", cells_of(table, 8), ("^", "0.6")),
+        ("axisymmetric, finest", cells_of(table), ("v", "0.2")),
+    ]
+    for elements, fidelity in FIDELITIES.items():
+        particles = rows_of(table, "3d", 4, elements)
+        kinds.append((f"3d, {fidelity}", particles, STYLES[fidelity]))
+    for words, part, (marker, colour) in kinds:
+        style = {"marker": marker, "color": colour, "markersize": 4, "linestyle": ""}
+        axis.plot(PLACES, part["cpu_s"], label=words, **style)
     axis.set_yscale("log")
     axis.set_ylim(top=20 * axis.get_ylim()[1])  # room for the legend
     axis.set_title("cost of a run [CPU s]", fontsize=10)
@@ -112,14 +117,16 @@ def draw(table, rows, path):
         for k, shape in enumerate(SHAPES):
             axis.annotate(
                 SHAPE_WORDS[shape],
-                (PLACES[len(VELOCITIES) * k + 1], -0.13),
+                (PLACES[len(VELOCITIES) * k + 1], -0.1),
                 xycoords=("data", "axes fraction"),
                 ha="center",
                 va="top",
                 fontsize=8,
             )
+    for axis in axes[-1]:
+        axis.set_xlabel("impact velocity [m/s]", labelpad=18)
     for axis in axes[:, 0]:
-        axis.set_ylabel("from the finest cells [%]")
+        axis.set_ylabel("from the finest cells [%], linear to 2")
     axes[0, 0].legend(fontsize=8)
     figure.tight_layout()
     figure.savefig(path, dpi=110)

@@ -8,6 +8,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 
+from database_costs import read_costs
 from job_log import job_record
 from measurements import read_measurements
 from outlines.basis import OutlineBasis, read_basis
@@ -137,15 +138,14 @@ def _database(path: Path) -> Database:
             "descriptors": {name: columns[:, index] for index, name in enumerate(names)},
             "attributes": _attributes(file),
         }
-    return Database(**found, cpu_s=_run_costs(Path(f"{path}.cost.csv")))
+    return Database(**found, cpu_s=_run_costs(path))
 
 
-def _run_costs(path: Path) -> list[float]:
+def _run_costs(database: Path) -> list[float]:
     """CPU seconds lie beside the database, whose bytes must not depend on them."""
-    if not path.exists():
+    if not Path(f"{database}.cost.csv").exists():
         return []
-    with path.open(newline="") as file:
-        return [float(row["cpu_s"]) for row in csv.DictReader(file)]
+    return list(read_costs(database).values())
 
 
 STAGES = ["design", "runs", "further_runs", "merge", "better_runs"]

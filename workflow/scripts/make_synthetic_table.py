@@ -26,7 +26,7 @@ import numpy as np
 from input_errors import InputError
 from make_design import write_design
 from shape_names import PAPER_SHAPES, is_shape
-from study import DESIGN_RANGES
+from shot_inputs import SHOT_INPUTS
 
 # Optimum (ii) of doi 10.3390/ma16165602, and its specimens, velocities and number of rows.
 TRUTH = {
@@ -77,7 +77,7 @@ class TableDesign:
             "seed": seeds.astype(np.int64),
             "shape": [shape for shape, _ in rows],
             "inputs": np.array([[velocity, *shot] for _, velocity in rows]),
-            "names": [*DESIGN_RANGES, *self.truth],
+            "names": [*SHOT_INPUTS, *self.truth],
         }
 
 

@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from input_errors import InputError
-from study import OUTLINE_SCORES
+from size_kinds import OUTLINE_SCORES
 
 COMPONENTS = len(OUTLINE_SCORES)
 SCHEMA = "taylorcal/outline_basis/1"

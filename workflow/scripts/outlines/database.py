@@ -8,7 +8,7 @@ import numpy as np
 
 from input_errors import InputError
 from outlines.basis import OutlineBasis
-from study import OUTLINE_SCORES
+from size_kinds import OUTLINE_SCORES
 
 STOPPED = 0
 

@@ -7,7 +7,7 @@ from measurements import read_cells, read_measurements
 from outlines.basis import OutlineBasis
 from outlines.measured import read_outline
 from outlines.projection import Projection, project
-from study import OUTLINE_SCORES
+from size_kinds import OUTLINE_SCORES
 
 # Read off the outline itself: beside its scores they would count the same dots twice.
 REPEATED = ["undeformed_length_mm", "diameter_at_0p2L0_mm"]

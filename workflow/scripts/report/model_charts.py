@@ -5,7 +5,7 @@ from report.chart import PALETTE, Band, Chart, Intervals, Line, Panel, Points
 from report.chart import ordered_colour
 from report.results import Results
 from report.words import USE_WORDS, lot_words, sentence_case, shape_words, size_words
-from study import is_radial
+from size_kinds import is_radial
 
 USE_SYMBOL = {"calibrate": {}, "validate": {"hollow": True}, "ignore": {"symbol": "cross"}}
 

@@ -7,7 +7,7 @@ from report.model_charts import USE_SYMBOL, grouping
 from report.results import Results
 from report.words import THIRD_WORDS, USE_WORDS, lot_words, shape_words
 from report.words import signed_percent, size_words
-from study import OUTLINE_SCORES
+from size_kinds import OUTLINE_SCORES
 
 FULL_COLOUR = 4.0  # mean deviation in standard errors that gets the full colour
 BY_SHAPE_SIZE_THIRD = "shape x size x velocity_third"

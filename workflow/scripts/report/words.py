@@ -6,7 +6,7 @@ import re
 from markupsafe import Markup, escape
 
 from shape_names import in_words
-from study import OUTLINE_SCORES
+from size_kinds import OUTLINE_SCORES
 
 SIZE_WORDS = {
     "final_length_mm": "final length",

@@ -23,6 +23,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 
+from atomic_file import written_whole
 from input_errors import InputError
 from make_design import write_design
 from shape_names import PAPER_SHAPES, is_shape
@@ -126,7 +127,7 @@ def table_rows(design: dict, sizes: np.ndarray, source: str, seed: int) -> list[
 
 
 def write_table(path: Path, rows: list[dict]) -> None:
-    with path.open("w", newline="", encoding="utf-8") as file:
+    with written_whole(path) as partial, partial.open("w", newline="", encoding="utf-8") as file:
         writer = csv.DictWriter(file, list(rows[0]), lineterminator="\n")
         writer.writeheader()
         writer.writerows(rows)

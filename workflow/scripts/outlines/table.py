@@ -3,6 +3,7 @@
 import csv
 from pathlib import Path
 
+from atomic_file import written_whole
 from measurements import read_cells, read_measurements
 from outlines.basis import OutlineBasis
 from outlines.measured import read_outline
@@ -50,7 +51,7 @@ def write_scored_table(
             row[f"{name}_sd"] = f"{projection.sd[k]:.6g}" if told else ""
         if projection is not None:
             row |= {key: "" for key in row if key.removesuffix("_sd") in REPEATED}
-    with target.open("w", newline="", encoding="utf-8") as file:
+    with written_whole(target) as partial, partial.open("w", encoding="utf-8", newline="") as file:
         writer = csv.DictWriter(file, list(rows[0]), lineterminator="\n")
         writer.writeheader()
         writer.writerows(rows)

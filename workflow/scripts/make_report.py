@@ -8,6 +8,7 @@ from report.chart import Chart
 from report.page import write_page
 from report.provenance import provenance_tables
 from report.results import Results, load_results
+from report.stages import STAGES
 from stage_log import logged_to
 
 
@@ -46,7 +47,7 @@ def write_report(inputs: dict[str, Path], benchmarks: Path, page: Path, plots: P
         results=results,
         settings=results.settings,
         findings=findings,
-        stage_words=quality_charts.STAGE_WORDS,
+        stages=STAGES,
         provenance=provenance_tables(results, inputs),
     )
 

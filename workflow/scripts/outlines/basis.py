@@ -125,9 +125,7 @@ def write_basis(path: Path, basis: OutlineBasis, provenance: dict) -> None:
 
 
 def read_basis(path: Path) -> OutlineBasis:
-    document = read_json(path)
-    if document.get("schema") != SCHEMA:
-        raise InputError(f"{path}: is no outline basis (expected schema {SCHEMA}). Make it anew.")
+    document = read_json(path, SCHEMA)
     shapes = {
         shape: ShapeBasis(
             **{

@@ -4,21 +4,8 @@ import numpy as np
 
 from report.chart import PALETTE, Bars, Chart, Histogram, Line, Panel, Points
 from report.results import Results
+from report.stages import STAGES
 from report.words import duration, shape_words, size_words
-
-STAGE_WORDS = {
-    "design": "design",
-    "runs": "solver runs",
-    "further_runs": "further solver runs",
-    "merge": "merging",
-    "better_runs": "runs of the better solver",
-    "first_train": "first training",
-    "first_sample": "first sampling",
-    "near_runs": "runs near its posterior",
-    "train": "training",
-    "sample": "sampling",
-    "compare": "comparing",
-}
 
 
 def network_chart(results: Results) -> Chart:
@@ -56,7 +43,7 @@ def cost_chart(results: Results) -> Chart:
     panels = []
     if costs:
         bars = Bars(
-            [STAGE_WORDS[cost["stage"]] for cost in costs],
+            [STAGES[cost["stage"]].words for cost in costs],
             [cost["wall_s"] for cost in costs],
             [duration(cost["wall_s"]) for cost in costs],
         )

@@ -10,8 +10,10 @@ import numpy as np
 
 from database_costs import read_costs
 from job_log import job_record
+from json_file import read_json
 from measurements import read_measurements
 from outlines.basis import OutlineBasis, read_basis
+from report.stages import STAGES
 
 
 @dataclass
@@ -67,10 +69,10 @@ class Results:
 
 def load_results(inputs: dict[str, Path], benchmarks: Path) -> Results:
     return Results(
-        settings=_json(inputs["settings"]),
+        settings=read_json(inputs["settings"]),
         rows=read_measurements(inputs["measurements"]),
-        comparison=_json(inputs["comparison"]),
-        emulator=_json(inputs["emulator"]),
+        comparison=read_json(inputs["comparison"]),
+        emulator=read_json(inputs["emulator"]),
         posterior=_posterior(inputs["posterior"]),
         database=_database(inputs["database"]),
         stage_costs=_stage_costs(benchmarks),
@@ -81,12 +83,8 @@ def load_results(inputs: dict[str, Path], benchmarks: Path) -> Results:
 def _outlines(inputs: dict[str, Path]) -> Outlines | None:
     if "outline_basis" not in inputs:
         return None
-    basis, projections = read_basis(inputs["outline_basis"]), _json(inputs["outline_scores"])
+    basis, projections = read_basis(inputs["outline_basis"]), read_json(inputs["outline_scores"])
     return Outlines(inputs["measurements"], basis, projections)
-
-
-def _json(path: Path) -> dict:
-    return json.loads(Path(path).read_text(encoding="utf-8"))
 
 
 def _texts(values) -> list[str]:
@@ -146,10 +144,6 @@ def _run_costs(database: Path) -> list[float]:
     if not Path(f"{database}.cost.csv").exists():
         return []
     return list(read_costs(database).values())
-
-
-STAGES = ["design", "runs", "further_runs", "merge", "better_runs"]
-STAGES += ["first_train", "first_sample", "near_runs", "train", "sample", "compare"]
 
 
 def _stage_costs(folder: Path) -> list[dict]:

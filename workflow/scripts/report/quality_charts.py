@@ -20,7 +20,8 @@ def network_chart(results: Results) -> Chart:
             solver = [pair["solver"] for pair in mine]
             error = [pair["network"] - pair["solver"] for pair in mine]
             words = shape_words(shape) if len(shapes) > 1 else ""
-            layers.append(Points(solver, error, PALETTE[index], size=4.5, legend=words))
+            colour = PALETTE[index % len(PALETTE)]
+            layers.append(Points(solver, error, colour, size=4.5, legend=words))
         spread = [value for layer in layers for value in layer.x]
         if not spread:
             continue

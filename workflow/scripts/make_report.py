@@ -18,7 +18,7 @@ def charts_of(results: Results) -> dict[str, list[Chart]]:
         "table": [model_charts.table_chart(results)],
         "velocity": model_charts.velocity_charts(results),
         "parity": [model_charts.parity_chart(results)],
-        "heat_maps": [residual_charts.heat_map(results.comparison["groups"])],
+        "heat_maps": [residual_charts.heat_map(results.comparison)],
         "deviations": [
             residual_charts.scatter_chart(results),
             residual_charts.normal_chart(results),

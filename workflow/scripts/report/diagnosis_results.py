@@ -4,6 +4,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from json_file import read_json
+from report.words import third_words
 
 
 @dataclass
@@ -17,6 +18,11 @@ class DiagnosisResults:
     next_experiments: list[dict]
     ladder: list[dict] = field(default_factory=list)  # revisions in the order of adding
     confirmations: dict[str, dict] = field(default_factory=dict)  # by id of the revision
+
+    @property
+    def thirds(self) -> dict[str, str]:
+        """Of the velocities of the comparisons, which are the same in all revisions."""
+        return third_words(self.comparison["velocity_thirds_m_s"], narrow=True)
 
     @property
     def ranked(self) -> list[dict]:

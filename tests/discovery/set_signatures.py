@@ -16,10 +16,11 @@ import numpy as np
 from hidden_signal import SignalTable, visible_amplitude
 from hide import WITHIN, read_candidates, read_signatures
 from make_design import write_design
-from make_signature_design import SHOT_INPUTS, base_rows, points, read_draws
+from make_signature_design import base_rows, points, read_draws
 from measurements import read_measurements
 from network import Network
 from refit import read_table
+from shot_inputs import SHOT_INPUTS
 from specimens import TRUTHS
 
 POINTS_A_SHAPE = 18

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from make_synthetic_table import DIAMETER_MM, LENGTH_MM, TEMPERATURE_K
+from shot_inputs import SHOT_INPUTS
 
 SHAPES = ["uniform_cylinder", "reduced_head_4mm", "truncated_cone"]
 VELOCITIES_A_SHAPE = 8
@@ -23,7 +24,6 @@ NUMERICS = (
     {"elements_across_radius": 6, "grains_per_point": 16},
     {"elements_across_radius": 7, "grains_per_point": 4},
 )
-SHOT_INPUTS = ["velocity_m_s", "initial_diameter_mm", "length_to_diameter", "initial_temperature_K"]
 
 
 @dataclass(frozen=True)

@@ -4,7 +4,7 @@ from pathlib import Path
 
 from tiny_study import STUDY_YAML, TABLE, write_study
 
-from study import OUTLINE_SCORES
+from size_kinds import OUTLINE_SCORES
 
 OUTLINE = "height_mm,radius_mm\n0,5.9\n1,5.0\n2,4.8\n4,4.5\n6,4.2\n8,4.0\n10,3.9\n12.3,3.8\n"
 WITH_OUTLINES = TABLE.replace("source,note", "source,note,outline").replace("1995,\n", "1995,,\n")

@@ -1,5 +1,6 @@
 """Digests of code: what counts, and for which program."""
 
+import ast
 import re
 import shutil
 import subprocess
@@ -8,7 +9,7 @@ import pytest
 from tiny_study import ROOT
 
 import code_digest
-from code_digest import modules_of, script_digest
+from code_digest import SCRIPTS, modules_of, script_digest
 
 PROGRAMS = ["solver", "emulator", "calibrate"]
 FOLDERS = ["common", "solver", "emulator", "calibrate", "experiments/equation_of_state"]
@@ -100,6 +101,22 @@ def test_a_script_counts_with_the_modules_that_it_imports(scripts):
     before = digest_now()
     (scripts / "drawing" / "line.py").write_text("WIDTH = 2\n")
     assert digest_now() != before
+
+
+def test_stages_take_from_the_study_only_what_checks_it():
+    """Its own digest does not count; settings, which rules take from it, are noted themselves."""
+    stages = [path.name for path in SCRIPTS.glob("*.py") if "snakemake.log" in path.read_text()]
+    modules = {module for name in stages for module in modules_of(name)}
+    taken = {
+        (module.name, alias.name)
+        for module in modules
+        for node in ast.walk(ast.parse(module.read_text()))
+        if isinstance(node, ast.ImportFrom) and node.module == "study"
+        for alias in node.names
+    }
+    assert {"make_report.py", "make_outline_basis.py"} < set(stages)
+    assert SCRIPTS / "size_kinds.py" in modules_of("make_outline_basis.py")
+    assert taken == {("measurements.py", "database_parts")}
 
 
 def test_words_and_layout_of_a_script_do_not_count(scripts):

@@ -196,6 +196,8 @@ def test_text_of_the_files_cannot_become_markup(tmp_path, monkeypatch):
     "kind, effects, shots, words",
     [
         ("effect", ["hall_petch"], [], "Missing effect: strengthening by grain refinement"),
+        ("effect", ["hall_petch", "c_d"], [], ": strengthening by grain refinement and c d"),
+        ("effect", ["a", "b"], [], "Missing effects: a and b"),
         ("one of", ["a", "b", "c_d"], [], "One of these is missing: a, b or c d"),
         ("not distinguishable", [], [], "these data cannot tell what"),
         ("outside the list", [], [], "not in the list of effects"),

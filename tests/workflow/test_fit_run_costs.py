@@ -8,6 +8,7 @@ import pytest
 from tiny_study import ROOT
 
 from cost.model import run_costs
+from database_costs import read_costs
 from fit_run_costs import fits, main
 
 RUNS = 400
@@ -53,6 +54,18 @@ def test_few_runs_are_compared_with_the_kind_that_has_their_impacts(databases, t
     more = database(tmp_path / "standard.h5", "standard", velocity, 5 + 0 * velocity)
     fine = "axisymmetric", "fine", "truncated_cone"
     assert fits([*databases, more])[fine] == fits(databases)[fine]
+
+
+def test_runs_of_unknown_cost_do_not_count(databases):
+    known = fits(databases)
+    costs = databases[0].with_name("coarse.h5.cost.csv")
+    lines = costs.read_text().splitlines()
+    lines[-1] = f"{RUNS - 1},"
+    costs.write_text("\n".join(lines) + "\n")
+    for name, fewer in (("coarse", 1), ("fine", 0)):
+        kind = "axisymmetric", name, "truncated_cone"
+        assert fits(databases)[kind].runs == known[kind].runs - fewer
+    assert read_costs(databases[0]).keys() == set(range(RUNS - 1))
 
 
 def test_few_runs_without_their_like_are_an_error(databases, tmp_path):

@@ -227,3 +227,12 @@ def test_a_kill_leaves_the_table_whole(tmp_path, call):
     assert table.read_text() == TABLE + NEW_ROW
     assert table.stat().st_mode & 0o777 == 0o640
     assert [path.name for path in tmp_path.iterdir()] == ["measurements.csv"]
+
+
+def test_a_table_that_would_not_be_read_again_stays_as_it_was(tmp_path):
+    table = tmp_path / "measurements.csv"
+    table.write_text(TABLE)
+    with pytest.raises(InputError, match="'a1' is already in line 2"):
+        append_rows(table, [TABLE.splitlines()[1].split(",")])
+    assert table.read_text() == TABLE
+    assert [path.name for path in tmp_path.iterdir()] == ["measurements.csv"]

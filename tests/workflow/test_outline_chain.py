@@ -5,7 +5,7 @@ import json
 import pytest
 from outlined_study import OUTLINE, outlined_study
 
-from study import OUTLINE_SCORES
+from size_kinds import OUTLINE_SCORES
 
 SCORING = {"score_measurements", "sample", "compare", "report", "all"}
 

@@ -15,7 +15,8 @@ from outlines.database import read_outlines, score_table, write_scored_database
 from outlines.measured import MeasuredOutline, read_outline
 from outlines.projection import project
 from outlines.table import check_outlines, projections, write_scored_table
-from study import OUTLINE_SCORES, read_study, train_settings
+from size_kinds import OUTLINE_SCORES
+from study import read_study, train_settings
 
 FRACTIONS = ((np.arange(40) + 0.5) / 40) ** 1.5
 SHAPE = "uniform_cylinder"

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import h5py
 import numpy as np
+from atomic_file import write_text
 from equation_of_state import checks, check_figure
 from equation_of_state.models import Analytic, Dynamics, Network
 from equation_of_state.properties import Rest
@@ -119,7 +120,7 @@ def main(inputs, outputs) -> None:
         ("Along isentropes, dE = P/rho^2 drho", isentrope_table(network, dynamics, metal)),
     ]
     text = "\n\n".join("## " + title + "\n" + "\n".join(lines) for title, lines in parts)
-    Path(outputs.table).write_text(text + "\n", encoding="utf-8")
+    write_text(outputs.table, text + "\n")
     states = read_states(Path(inputs.table), provenance["density_of_molecular_dynamics_kg_m3"])
     del models["molecular dynamics"]
     check_figure.draw(Path(outputs.figure), states, scale, models, metal)

@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+from atomic_file import write_text
 from json_file import read_json
 from stage_log import logged_to
 
@@ -41,5 +42,4 @@ def table(paths) -> str:
 
 if __name__ == "__main__":
     with logged_to(snakemake.log[0]):  # noqa: F821
-        text = table(snakemake.input.impacts)  # noqa: F821
-        Path(snakemake.output[0]).write_text(text, encoding="utf-8")  # noqa: F821
+        write_text(snakemake.output[0], table(snakemake.input.impacts))  # noqa: F821

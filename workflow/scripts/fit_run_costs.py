@@ -19,6 +19,7 @@ import h5py
 import numpy as np
 
 from cost.model import REFERENCE_VELOCITY
+from database_costs import read_costs
 from shape_names import PAPER_SHAPES
 
 ENOUGH_RUNS = 30
@@ -43,15 +44,16 @@ class Run:
 
 
 def measured(path: Path) -> dict[tuple, list[Run]]:
-    """By geometry, fidelity and shape."""
-    with Path(f"{path}.cost.csv").open(newline="") as file:
-        cost = {int(row["run_id"]): float(row["cpu_s"]) for row in csv.DictReader(file)}
+    """By geometry, fidelity and shape; without runs whose cost is not known."""
+    cost = read_costs(path)
     found: dict[tuple, list] = {}
     with h5py.File(path) as file:
         configuration = json.loads(file.attrs["provenance"])["configuration"]
         column = list(file["inputs"].attrs["names"]).index("velocity_m_s")
         rows = zip(file["run_id"][:], file["shape"].asstr()[:], file["inputs"][:])
         for run, shape, inputs in rows:
+            if int(run) not in cost:
+                continue
             kind = (configuration["geometry"], configuration["fidelity"], shape)
             one = Run(tuple(inputs), inputs[column], cost[int(run)])
             found.setdefault(kind, []).append(one)

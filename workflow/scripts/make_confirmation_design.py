@@ -10,8 +10,9 @@ import numpy as np
 
 from json_file import read_json
 from make_design import write_design
-from make_signature_design import SHOT_INPUTS, parameters_of
+from make_signature_design import parameters_of
 from measurements import read_measurements
+from shot_inputs import SHOT_INPUTS
 from stage_log import logged_to
 
 

@@ -1,12 +1,12 @@
 """Writes design.h5: the runs of the database, spread evenly over the study's ranges."""
 
 import math
-import os
 from pathlib import Path
 
 import h5py
 import numpy as np
 
+from atomic_file import written_whole
 from stage_log import logged_to
 
 
@@ -79,17 +79,14 @@ def _interleaved_sobol(dimensions: int, runs: int, shapes: int, seed: list[int])
 
 
 def write_design(path: Path, columns: dict) -> None:
-    """Under a temporary name first, so that nobody reads half a file."""
-    partial = path.with_name(path.name + ".tmp")
     text = h5py.string_dtype(encoding="utf-8")
-    with h5py.File(partial, "w") as file:
+    with written_whole(path) as partial, h5py.File(partial, "w") as file:
         file.attrs["schema"] = "taylorcal/design/1"
         for name in ("run_id", "seed", "inputs"):
             # No time stamps: the same design has the same bytes.
             file.create_dataset(name, data=columns[name], track_times=False)
         file.create_dataset("shape", data=columns["shape"], dtype=text, track_times=False)
         file["inputs"].attrs.create("names", columns["names"], dtype=text)
-    os.replace(partial, path)
 
 
 if __name__ == "__main__":

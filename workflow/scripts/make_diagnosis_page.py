@@ -13,7 +13,7 @@ from stage_log import logged_to
 def charts_of(results: DiagnosisResults) -> dict[str, list[Chart]]:
     """The charts of each section of the page, without the empty ones."""
     sections = {
-        "fails": [residual_charts.heat_map(results.comparison["groups"])],
+        "fails": [residual_charts.heat_map(results.comparison)],
         "evidence": [diagnosis_charts.evidence_chart(results)],
         "confounding": [diagnosis_charts.confounding_chart(results)],
         "unseen": [diagnosis_charts.unseen_chart(results)],

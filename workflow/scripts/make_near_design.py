@@ -11,8 +11,9 @@ import numpy as np
 
 from make_confirmation_design import shots_in_use
 from make_design import write_design
-from make_signature_design import SHOT_INPUTS, read_draws
+from make_signature_design import read_draws
 from measurements import read_measurements
+from shot_inputs import SHOT_INPUTS
 from stage_log import logged_to
 
 WIDER = 2  # deviations from the mean, of the posterior's

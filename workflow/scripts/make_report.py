@@ -8,6 +8,7 @@ from report.chart import Chart
 from report.page import write_page
 from report.provenance import provenance_tables
 from report.results import Results, load_results
+from report.stages import STAGES
 from stage_log import logged_to
 
 
@@ -17,7 +18,7 @@ def charts_of(results: Results) -> dict[str, list[Chart]]:
         "table": [model_charts.table_chart(results)],
         "velocity": model_charts.velocity_charts(results),
         "parity": [model_charts.parity_chart(results)],
-        "heat_maps": [residual_charts.heat_map(results.comparison["groups"])],
+        "heat_maps": [residual_charts.heat_map(results.comparison)],
         "deviations": [
             residual_charts.scatter_chart(results),
             residual_charts.normal_chart(results),
@@ -46,7 +47,7 @@ def write_report(inputs: dict[str, Path], benchmarks: Path, page: Path, plots: P
         results=results,
         settings=results.settings,
         findings=findings,
-        stage_words=quality_charts.STAGE_WORDS,
+        stages=STAGES,
         provenance=provenance_tables(results, inputs),
     )
 

@@ -13,10 +13,8 @@ import numpy as np
 from json_file import read_json
 from make_design import write_design
 from measurements import read_measurements
+from shot_inputs import SHOT_INPUTS
 from stage_log import logged_to
-
-SHOT_INPUTS = ["velocity_m_s", "initial_diameter_mm", "length_to_diameter"]
-SHOT_INPUTS += ["initial_temperature_K"]
 
 
 def shapes_in_use(rows: list[dict]) -> list[str]:

@@ -23,10 +23,11 @@ from pathlib import Path
 import h5py
 import numpy as np
 
+from atomic_file import written_whole
 from input_errors import InputError
 from make_design import write_design
 from shape_names import PAPER_SHAPES, is_shape
-from study import DESIGN_RANGES
+from shot_inputs import SHOT_INPUTS
 
 # Optimum (ii) of doi 10.3390/ma16165602, and its specimens, velocities and number of rows.
 TRUTH = {
@@ -77,7 +78,7 @@ class TableDesign:
             "seed": seeds.astype(np.int64),
             "shape": [shape for shape, _ in rows],
             "inputs": np.array([[velocity, *shot] for _, velocity in rows]),
-            "names": [*DESIGN_RANGES, *self.truth],
+            "names": [*SHOT_INPUTS, *self.truth],
         }
 
 
@@ -126,7 +127,7 @@ def table_rows(design: dict, sizes: np.ndarray, source: str, seed: int) -> list[
 
 
 def write_table(path: Path, rows: list[dict]) -> None:
-    with path.open("w", newline="", encoding="utf-8") as file:
+    with written_whole(path) as partial, partial.open("w", newline="", encoding="utf-8") as file:
         writer = csv.DictWriter(file, list(rows[0]), lineterminator="\n")
         writer.writeheader()
         writer.writerows(rows)

@@ -7,7 +7,9 @@ from pathlib import Path
 
 from input_errors import InputError
 from schema_check import fill_defaults, findings, load_schema
-from study import DESIGN_RANGES, OUTLINE_SCORES, database_parts
+from shot_inputs import SHOT_INPUTS
+from size_kinds import OUTLINE_SCORES
+from study import database_parts
 
 SEPARATORS = {",": "comma", ";": "semicolon", "\t": "tab"}
 FAR_OFF = 5  # standard errors from which a size is a slip of the pen
@@ -79,7 +81,7 @@ def _beyond_part(row: dict, part: dict) -> list[str]:
             f"shape {row['shape']!r} is not in database.shapes. Add runs of it to database.further."
         )
     values = {**row, "length_to_diameter": row["initial_length_mm"] / row["initial_diameter_mm"]}
-    for key in DESIGN_RANGES:
+    for key in SHOT_INPUTS:
         lowest, highest = part[key]
         slack = 1e-9 * highest
         if not lowest - slack <= values[key] <= highest + slack:

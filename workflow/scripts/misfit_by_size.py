@@ -4,7 +4,7 @@ In per cent of the size before impact: one that may vanish, such as the undeform
 would make deviations relative to itself meaningless.
 """
 
-from study import is_radial
+from size_kinds import is_radial
 
 
 def size_before_impact(size: str, specimen: dict) -> float:

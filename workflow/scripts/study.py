@@ -8,11 +8,11 @@ from pathlib import Path
 
 from input_errors import InputError
 from schema_check import fill_defaults, findings, load_schema
+from shot_inputs import SHOT_INPUTS
+from size_kinds import OUTLINE_SCORES, is_radial
 from yaml_lines import read_yaml
 
 EXPERIMENTS = Path("experiments")
-DESIGN_RANGES = ["velocity_m_s", "initial_diameter_mm", "length_to_diameter"]
-DESIGN_RANGES += ["initial_temperature_K"]
 LENGTH = ["initial_diameter_mm", "length_to_diameter"]
 DIAMETER = ["initial_diameter_mm"]
 FIDELITIES = ["coarse", "standard", "fine"]
@@ -20,7 +20,6 @@ FIRST_BETTER_RUN = 100_000_000  # beyond those of any revision: no number is use
 FIRST_NEAR_RUN = 150_000_000
 FIRST_FURTHER_RUN = 50_000_000  # and a million for each part: see the schema
 RUNS_OF_A_PART = 1_000_000
-OUTLINE_SCORES = [f"outline_pc_{k}" for k in range(1, 5)]  # of principal components, in mm
 
 
 def load_study(name: str, experiments: Path = EXPERIMENTS) -> dict:
@@ -67,12 +66,12 @@ def _contradictions(study: dict) -> list[tuple[tuple, str]]:
     parts = [((), study["database"])]
     parts += [(("further", n), part) for n, part in enumerate(study["database"]["further"])]
     for place, part in parts:
-        for key in set(DESIGN_RANGES) & set(part):
+        for key in set(SHOT_INPUTS) & set(part):
             lowest, highest = part[key]
             if lowest > highest:
                 problem = f"= [{lowest}, {highest}] (expected the lowest value first)."
                 found.append((("database", *place, key), problem))
-    own = set(DESIGN_RANGES) | {"shapes"}
+    own = set(SHOT_INPUTS) | {"shapes"}
     if study["database"]["better"] and any(own & set(p) for p in study["database"]["further"]):
         problem = "has no runs of the better solver. Widen the ranges of the database itself."
         found.append((("database", "further"), problem))
@@ -117,11 +116,6 @@ def _uncovered_priors(study: dict) -> list[tuple[tuple, str]]:
     return found
 
 
-def is_radial(size: str) -> bool:
-    """Whether a size scales with the diameter, and not with the length."""
-    return "diameter" in size or size in OUTLINE_SCORES
-
-
 def uses_outlines(study: dict) -> bool:
     """Whether measured outlines are compared, as scores of principal components."""
     return any(size in OUTLINE_SCORES for size in study["emulator"]["outputs"])
@@ -130,7 +124,7 @@ def uses_outlines(study: dict) -> bool:
 def database_parts(study: dict) -> list[dict]:
     """Shapes and ranges that the database covers: its own, then those of each further part."""
     database = study["database"]
-    own = {key: database[key] for key in ("shapes", *DESIGN_RANGES)}
+    own = {key: database[key] for key in ("shapes", *SHOT_INPUTS)}
     return [own] + [{key: part.get(key, own[key]) for key in own} for part in database["further"]]
 
 
@@ -147,11 +141,11 @@ def design_settings(study: dict) -> dict:
     }
     settings = {key: database[key] for key in ("seed", "shapes")}
     settings |= {"runs": new_runs(study), "parameters": parameters}
-    settings["ranges"] = {key: database[key] for key in DESIGN_RANGES}
+    settings["ranges"] = {key: database[key] for key in SHOT_INPUTS}
     if study["revision"]:
         parts = database_parts(study)
         settings["shapes"] = all_shapes(study)
-        for key in DESIGN_RANGES:
+        for key in SHOT_INPUTS:
             limits = [limit for part in parts for limit in part[key]]
             settings["ranges"][key] = [min(limits), max(limits)]
         earlier = len(study["revision"]) - 1
@@ -230,7 +224,7 @@ def has_finer(study: dict) -> bool:
 
 def train_settings(study: dict) -> dict:
     """train.json"""
-    inputs = [{"name": name} for name in DESIGN_RANGES]
+    inputs = [{"name": name} for name in SHOT_INPUTS]
     for name, parameter in study["parameters"].items():
         inputs.append({"name": name, **_transform_of(parameter)})
     inputs += [{"name": effect["name"]} for effect in study["revision"]]

@@ -1,8 +1,5 @@
 """Adds effects to study.yaml and takes them out, in its text: comments and layout stay."""
 
-import os
-from pathlib import Path
-
 import yaml
 
 from input_errors import InputError
@@ -53,13 +50,6 @@ def without_effect(text: str, name: str) -> str:
     else:
         start, end = items[place - 1].end_mark.index, items[place].end_mark.index
     return text[:start] + text[end:]
-
-
-def rewrite(path: Path, text: str) -> None:
-    """Under a temporary name first, so that a study is never half written."""
-    partial = path.with_name(path.name + ".tmp")
-    partial.write_text(text, encoding="utf-8")
-    os.replace(partial, path)
 
 
 def _effects_node(text: str) -> yaml.Node | None:

@@ -18,7 +18,7 @@ from paired_runs import read_pairs
 from make_synthetic_table import NOISE, TRUTH, VELOCITY_NOISE
 from outlines.measured import MeasuredOutline
 from outlines.projection import project
-from study import OUTLINE_SCORES
+from size_kinds import OUTLINE_SCORES
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402

@@ -17,7 +17,7 @@ sys.path.insert(0, str(Path(__file__).parents[3] / "workflow" / "scripts"))
 
 from impact_runs import SHAPES  # noqa: E402
 from make_synthetic_table import DIAMETER_MM, LENGTH_MM, TRUTH  # noqa: E402
-from study import DESIGN_RANGES  # noqa: E402
+from shot_inputs import SHOT_INPUTS  # noqa: E402
 
 FIDELITY = "coarse"
 VELOCITIES_M_S = [40, 60, 80, 100, 120]
@@ -46,7 +46,7 @@ def paired_design(effects, base=0.0):
     """Columns of the design, as `write_design` wants them; `effects`: {input: value}, each
     `base` but in the runs that show it."""
     fixed = {"initial_diameter_mm": DIAMETER_MM, "length_to_diameter": LENGTH_MM / DIAMETER_MM}
-    names = [*DESIGN_RANGES, *TRUTH, *effects]
+    names = [*SHOT_INPUTS, *TRUTH, *effects]
     changes = [{}, *({name: value} for name, value in {**RAISED, **effects}.items())]
     rows, shapes, seeds = [], [], []
     specimens = itertools.product([ROOM_K, HOT_K], SHAPES, VELOCITIES_M_S)

@@ -11,7 +11,8 @@ sys.path.insert(0, str(Path(__file__).parents[3] / "workflow" / "scripts"))
 
 from outlines.basis import OutlineBasis, make_basis  # noqa: E402
 from outlines.database import read_outlines, score_table  # noqa: E402
-from study import DESIGN_RANGES, OUTLINE_SCORES  # noqa: E402
+from shot_inputs import SHOT_INPUTS  # noqa: E402
+from size_kinds import OUTLINE_SCORES  # noqa: E402
 
 
 @dataclass
@@ -65,7 +66,7 @@ def read_pairs(path):
         specimens.append(
             Pairs(
                 shape=str(shapes[unchanged]),
-                shot={name: base[names.index(name)] for name in DESIGN_RANGES},
+                shot={name: base[names.index(name)] for name in SHOT_INPUTS},
                 base=dict(zip(size_names, of_base)),
                 changes={
                     name: dict(zip(size_names, sizes[row] - of_base))

@@ -33,9 +33,10 @@ def _isotherms(axis, states: States, scale: float, network) -> None:
             continue
         density = states["density_kg_m3"][rows] * scale
         pressure = states["pressure_Pa"][rows] * scale / 1e9
-        axis.plot(density, pressure, ".", color=colour, ms=3, label=f"{temperature} K")
+        axis.plot(density, pressure, ".", color=colour, ms=6, alpha=0.35, label=f"{temperature} K")
         answer = network.at(density, states["smooth_energy_J_kg"][rows]).pressure / 1e9
-        axis.plot(density, answer, "-", color=colour, lw=0.8)
+        axis.plot(density, answer, color="black", lw=0.7)
+    axis.plot([], [], color="black", lw=0.7, label="network")
     axis.set(xlabel="density, kg/m3", ylabel="pressure, GPa")
     axis.set_title("Isotherms: molecular dynamics (points), network (lines)", fontsize=10)
     axis.legend(fontsize=8)

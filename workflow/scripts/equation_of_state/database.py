@@ -4,6 +4,7 @@ from pathlib import Path
 
 import h5py
 import numpy as np
+from atomic_file import written_whole
 from equation_of_state.models import Dynamics
 from equation_of_state.table import States
 
@@ -32,7 +33,7 @@ def learnt_rows(dynamics: Dynamics, states: States, temperatures) -> tuple[np.nd
 
 
 def write_database(path: Path, inputs: np.ndarray, outputs: np.ndarray) -> None:
-    with h5py.File(path, "w") as file:
+    with written_whole(path) as partial, h5py.File(partial, "w") as file:
         file.attrs["schema"] = "taylorcal/database/1"
         file["run_id"] = np.arange(len(inputs), dtype=np.int64)
         file["status"] = np.zeros(len(inputs), dtype=np.int64)

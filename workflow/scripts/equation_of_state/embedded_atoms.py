@@ -9,6 +9,8 @@ and forces without them, several times faster. https://docs.lammps.org/pair_adp.
 from dataclasses import dataclass
 from pathlib import Path
 
+from atomic_file import write_text
+
 VALUES_A_LINE = 5
 
 
@@ -58,4 +60,4 @@ def write_eam(path: Path, source: Path, name: str) -> None:
     for table in (element.embedding, element.density, element.pair):
         for start in range(0, len(table), VALUES_A_LINE):
             lines.append(" ".join(table[start : start + VALUES_A_LINE]))
-    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    write_text(path, "\n".join(lines) + "\n")

@@ -8,7 +8,6 @@ from equation_of_state.surface import BOLTZMANN
 
 ATOMS = 500
 CELLS_ALONG_AN_EDGE = 5
-ATOMS_A_CELL = 4
 PER_BAR = 6.241509074e-7  # 1 bar in eV/A^3
 # A walk along an isotherm ends where atoms leave their sites: mean square displacement within a
 # point's time over the square of the distance of neighbours. It is twice that about the sites, so

@@ -1,11 +1,10 @@
 """The table of states: what molecular dynamics measured beside the smooth surface through it."""
 
-import io
-import os
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from atomic_file import write_text
 from equation_of_state.isotherms import Isotherm
 from equation_of_state.surface import Surface, fit_lattice, fit_surface
 from equation_of_state.units import AtomicUnits
@@ -74,13 +73,10 @@ def states_of(isotherms: list[Isotherm], surface: Surface, units: AtomicUnits) -
 
 
 def write_states(path: Path, states: States) -> None:
-    text = io.StringIO()
-    text.write(",".join(COLUMNS) + "\n")
+    lines = [",".join(COLUMNS)]
     for row in zip(*(states[name] for name in COLUMNS)):
-        text.write(",".join(f"{value:.9g}" for value in row) + "\n")
-    partial = path.with_name(path.name + ".tmp")
-    partial.write_text(text.getvalue(), encoding="utf-8")
-    os.replace(partial, path)
+        lines.append(",".join(f"{value:.9g}" for value in row))
+    write_text(path, "\n".join(lines) + "\n")
 
 
 def read_states(path: Path, reference_density: float) -> States:

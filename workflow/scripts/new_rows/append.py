@@ -2,10 +2,9 @@
 
 import csv
 import io
-import os
-import shutil
 from pathlib import Path
 
+from atomic_file import written_whole
 from input_errors import InputError
 from measurements import read_cells, read_measurements
 
@@ -34,15 +33,6 @@ def with_rows(content: bytes, rows: list[list[str]]) -> bytes:
 
 def append_rows(path: Path, rows: list[list[str]]) -> None:
     """Writes the longer table beside the old one, reads it back, and puts it in its place."""
-    path = path.resolve()  # a link stays a link
-    partial = path.with_name(path.name + ".tmp")
-    with partial.open("wb") as file:
-        file.write(with_rows(path.read_bytes(), rows))
-        file.flush()
-        os.fsync(file.fileno())
-    shutil.copymode(path, partial)
-    read_measurements(partial)
-    os.replace(partial, path)
-    folder = os.open(path.parent, os.O_RDONLY)
-    os.fsync(folder)  # the new name, too, is on the disk
-    os.close(folder)
+    with written_whole(path) as partial:
+        partial.write_bytes(with_rows(path.read_bytes(), rows))
+        read_measurements(partial)

@@ -11,7 +11,7 @@ import h5py
 from input_errors import InputError
 from json_file import read_json
 from measurements import read_cells
-from study import DESIGN_RANGES
+from shot_inputs import SHOT_INPUTS
 
 CALIBRATE = Path("build/bin/calibrate")
 NEEDED = ("emulator.json", "posterior.h5", "config/calibrate.json")
@@ -63,7 +63,7 @@ def beyond_network(row: dict, home: Path) -> list[str]:
         lowest, highest = entry["lower"], entry["upper"]
         slack = 1e-9 * abs(highest)
         name = entry["name"]
-        if name in DESIGN_RANGES and not lowest - slack <= values[name] <= highest + slack:
+        if name in SHOT_INPUTS and not lowest - slack <= values[name] <= highest + slack:
             found.append(f"{name} = {values[name]:g} ({lowest:g} to {highest:g})")
     shapes = (network["category"] or {}).get("values", [])
     if shapes and row["shape"] not in shapes:

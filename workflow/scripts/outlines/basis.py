@@ -6,14 +6,14 @@ square over the height, wherever the heights lie. Dots of a measured outline lie
 evenly and err alike, so errors of scores in this norm hardly depend on each other.
 """
 
-import json
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from input_errors import InputError
-from study import OUTLINE_SCORES
+from json_file import read_json, write_json
+from size_kinds import OUTLINE_SCORES
 
 COMPONENTS = len(OUTLINE_SCORES)
 SCHEMA = "taylorcal/outline_basis/1"
@@ -121,13 +121,11 @@ def write_basis(path: Path, basis: OutlineBasis, provenance: dict) -> None:
     }
     document = {"schema": SCHEMA, "fractions": basis.fractions.tolist(), "shapes": shapes}
     document |= {"provenance": provenance}
-    path.write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8")
+    write_json(path, document)
 
 
 def read_basis(path: Path) -> OutlineBasis:
-    document = json.loads(path.read_text(encoding="utf-8"))
-    if document.get("schema") != SCHEMA:
-        raise InputError(f"{path}: is no outline basis (expected schema {SCHEMA}). Make it anew.")
+    document = read_json(path, SCHEMA)
     shapes = {
         shape: ShapeBasis(
             **{

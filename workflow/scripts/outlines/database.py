@@ -1,14 +1,14 @@
 """Outlines of a database, and the database with their scores as further outputs."""
 
-import os
 from pathlib import Path
 
 import h5py
 import numpy as np
 
+from atomic_file import written_whole
 from input_errors import InputError
 from outlines.basis import OutlineBasis
-from study import OUTLINE_SCORES
+from size_kinds import OUTLINE_SCORES
 
 STOPPED = 0
 
@@ -51,9 +51,12 @@ def score_table(path: Path, basis: OutlineBasis) -> np.ndarray:
 def write_scored_database(source: Path, basis: OutlineBasis, target: Path) -> None:
     """A copy of the database whose outputs have the scores [mm] after the sizes."""
     scores = score_table(source, basis)
-    partial = target.with_name(target.name + ".tmp")
     text = h5py.string_dtype(encoding="utf-8")
-    with h5py.File(source) as old, h5py.File(partial, "w") as new:
+    with (
+        written_whole(target) as partial,
+        h5py.File(source) as old,
+        h5py.File(partial, "w") as new,
+    ):
         for name in old:
             if name != "outputs":
                 old.copy(name, new)
@@ -63,4 +66,3 @@ def write_scored_database(source: Path, basis: OutlineBasis, target: Path) -> No
         new.create_dataset("outputs", data=outputs, track_times=False)
         names = [*old["outputs"].attrs["names"], *OUTLINE_SCORES]
         new["outputs"].attrs.create("names", names, dtype=text)
-    os.replace(partial, target)

@@ -3,11 +3,12 @@
 import csv
 from pathlib import Path
 
+from atomic_file import written_whole
 from measurements import read_cells, read_measurements
 from outlines.basis import OutlineBasis
 from outlines.measured import read_outline
 from outlines.projection import Projection, project
-from study import OUTLINE_SCORES
+from size_kinds import OUTLINE_SCORES
 
 # Read off the outline itself: beside its scores they would count the same dots twice.
 REPEATED = ["undeformed_length_mm", "diameter_at_0p2L0_mm"]
@@ -50,7 +51,7 @@ def write_scored_table(
             row[f"{name}_sd"] = f"{projection.sd[k]:.6g}" if told else ""
         if projection is not None:
             row |= {key: "" for key in row if key.removesuffix("_sd") in REPEATED}
-    with target.open("w", newline="", encoding="utf-8") as file:
+    with written_whole(target) as partial, partial.open("w", encoding="utf-8", newline="") as file:
         writer = csv.DictWriter(file, list(rows[0]), lineterminator="\n")
         writer.writeheader()
         writer.writerows(rows)

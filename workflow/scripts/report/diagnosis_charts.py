@@ -4,7 +4,7 @@ from report.candidates import largest_physical, unit_words
 from report.chart import PALETTE, Cells, Chart, Line, Panel, Points, Spans
 from report.diagnosis_results import DiagnosisResults
 from report.residual_charts import FULL_COLOUR
-from report.words import THIRD_WORDS, effect_words, sentence_case, shape_words, size_words
+from report.words import THIRDS, effect_words, sentence_case, shape_words, size_words
 
 MOST_IN_MATRIX = 14
 CLEAR_GAIN = 3.0  # of ln Z, twenty to one
@@ -161,7 +161,7 @@ def pattern_chart(results: DiagnosisResults) -> Chart:
     sizes = list(dict.fromkeys(size for _, size, _ in found))
     panels = []
     for shape in shapes:
-        cells = [[found.get((shape, size, third)) for third in THIRD_WORDS] for size in sizes]
+        cells = [[found.get((shape, size, third)) for third in THIRDS] for size in sizes]
         values = [[cell and cell["mean_whitened"] for cell in row] for row in cells]
         texts = [
             [
@@ -182,7 +182,7 @@ def pattern_chart(results: DiagnosisResults) -> Chart:
         panels.append(Panel([layer], shape_words(shape) if len(shapes) > 1 else ""))
     return Chart(
         "unexplained_pattern",
-        "What is left",
+        "What is left of measured − model",
         "Mean whitened deviation for each third of the velocities (slow, middle, fast), after the "
         "parameters have taken what they can. Orange: measured larger than the model; blue: "
         "smaller. A mean of n data scatters by 1/√n if nothing is missing.",

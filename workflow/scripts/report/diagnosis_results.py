@@ -1,10 +1,10 @@
 """Loads what the diagnosis needs into one object for its page."""
 
-import json
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from input_errors import InputError
+from json_file import read_json
+from report.words import third_words
 
 
 @dataclass
@@ -18,6 +18,11 @@ class DiagnosisResults:
     next_experiments: list[dict]
     ladder: list[dict] = field(default_factory=list)  # revisions in the order of adding
     confirmations: dict[str, dict] = field(default_factory=dict)  # by id of the revision
+
+    @property
+    def thirds(self) -> dict[str, str]:
+        """Of the velocities of the comparisons, which are the same in all revisions."""
+        return third_words(self.comparison["velocity_thirds_m_s"], narrow=True)
 
     @property
     def ranked(self) -> list[dict]:
@@ -55,18 +60,3 @@ def load_diagnosis(
         confirmations={key: read_json(path) for key, path in (confirmations or {}).items()},
         next_experiments=read_json(inputs["next_experiment"])["next_experiments"],
     )
-
-
-def read_json(path: Path, schema: str | None = None) -> dict:
-    """InputError when the file is not JSON, or of another schema than this page draws."""
-    try:
-        content = json.loads(Path(path).read_text(encoding="utf-8"))
-    except json.JSONDecodeError as error:
-        problem = f"{path}, line {error.lineno}: {error.msg} (expected JSON)."
-        raise InputError(f"{problem} Delete the file and run again.") from error
-    if schema and content.get("schema") != schema:
-        raise InputError(
-            f"{path}: schema = {content.get('schema')!r} (expected {schema!r}). Delete the file "
-            "and run again with programs of this version."
-        )
-    return content

@@ -192,8 +192,7 @@ def lot_rows(results: Results) -> list[dict]:
     for lot in results.lots:
         mine = [row for row in results.rows if row["lot"] == lot]
         uses = [row["use"] for row in mine]
-        sizes = [key for key in mine[0] if key.endswith("_mm") and not key.startswith("initial")]
-        sizes = list(dict.fromkeys(k for row in mine for k in (*sizes, *row) if _is_size(k)))
+        sizes = dict.fromkeys(key for row in mine for key in row if _is_size(key))
         rows.append(
             {
                 "lot": lot_words(lot),
@@ -207,7 +206,7 @@ def lot_rows(results: Results) -> list[dict]:
                 "ratio": _span(
                     [row["initial_length_mm"] / row["initial_diameter_mm"] for row in mine]
                 ),
-                "sizes": ", ".join(size_words(s) for s in sizes if any(s in row for row in mine)),
+                "sizes": ", ".join(size_words(size) for size in sizes),
             }
         )
     return rows

@@ -22,14 +22,14 @@ def ladder_rows(results: DiagnosisResults) -> list[dict]:
     """A row for each revision; gains against the one before."""
     rows, before = [], None
     for revision in results.ladder:
-        fitted, left_out = (_misfit(revision, use) for use in ("calibrate", "validate"))
+        fitted, held_back = (_misfit(revision, use) for use in ("calibrate", "validate"))
         shifts = revision.get("shift_sd") or {}
         moved = max(shifts, key=lambda name: abs(shifts[name]), default=None)
         rows.append(
             {
                 "words": revision_words(revision),
                 "fitted": _two_digits(fitted),
-                "left_out": _two_digits(left_out),
+                "held_back": _two_digits(held_back),
                 "solver": [
                     _two_digits(_confirmed(results, revision["id"], use))
                     for use in ("calibrate", "validate")
@@ -94,7 +94,7 @@ def sentences(results: DiagnosisResults) -> list[str]:
         name = effect_words(after["effects"][-1])
         parts = [
             _change(before, after, use, words)
-            for use, words in (("calibrate", "fitted"), ("validate", "left-out"))
+            for use, words in (("calibrate", "fitted"), ("validate", "held-back"))
         ]
         text = f"Adding {name}: {'; '.join(part for part in parts if part)}."
         found.append(f"{text} {_judgement(before, after)}".strip())
@@ -117,7 +117,7 @@ def _judgement(before: dict, after: dict) -> str:
     if gain is not None and gain < CLEAR_GAIN:
         return f"ln Z changes by {signed(gain)} only: the data do not ask for this effect."
     if old is not None and new is not None and new > old - HARDLY:
-        return "The left-out shots gain nothing by it, so that the effect remains doubtful."
+        return "The held-back shots gain nothing by it, so that the effect remains doubtful."
     if gain is None:
         return ""
     return f"ln Z rises by {gain:.1f}: the data ask for this effect."
@@ -158,7 +158,7 @@ def confirmation_sentences(results: DiagnosisResults) -> list[str]:
         confirmation = results.confirmations.get(revision["id"])
         if not confirmation:
             continue
-        uses = (("calibrate", "fitted"), ("validate", "left-out"))
+        uses = (("calibrate", "fitted"), ("validate", "held-back"))
         parts = []
         for use, words in uses:
             solver, network = _misfit(confirmation, use), _misfit(revision, use)

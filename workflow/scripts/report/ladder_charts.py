@@ -6,9 +6,9 @@ from report.chart import PALETTE, Chart, Line, Panel, Points, Spans
 from report.diagnosis_results import DiagnosisResults
 from report.ladder import revision_words
 from report.residual_charts import BY_SHAPE_SIZE_THIRD
-from report.words import THIRD_WORDS, shape_words, size_words
+from report.words import THIRDS, relative_words, shape_words, size_words
 
-USES = (("calibrate", "fitted shots", False), ("validate", "left-out shots", True))
+USES = (("calibrate", "fitted shots", False), ("validate", "shots held back", True))
 BEFORE, AFTER, SOLVER = "#8a929b", PALETTE[0], PALETTE[1]
 MOST_PANELS = 9
 
@@ -23,7 +23,7 @@ def ladder_chart(results: DiagnosisResults) -> Chart:
     return Chart(
         "ladder",
         "How the error fell",
-        "Left: misfit of fitted and left-out shots, root mean square of the whitened deviations; "
+        "Left: misfit of shots fitted and held back, root mean square of the whitened deviations; "
         "1 (grey) is what the errors explain. Diamonds: the solver itself in place of the "
         "network, at the best parameters. Right: how much more probable the data are than under "
         "the model without effects; 3 means 20 to 1. A true effect lowers both misfits.",
@@ -52,10 +52,8 @@ def _misfit_panel(results: DiagnosisResults, names: list[str]) -> Panel:
         ]
         confirmed, by_solver = _values(misfits, use)
         if confirmed:
-            words = "the same, by the solver itself"
-            layers.append(
-                Points(by_solver, confirmed, SOLVER, hollow=hollow, symbol="diamond", legend=words)
-            )
+            style = {"hollow": hollow, "symbol": "diamond", "legend": f"{words}, by the solver"}
+            layers.append(Points(by_solver, confirmed, SOLVER, **style))
         highest = max(highest, *values, *by_solver)
     return Panel(
         layers,
@@ -117,16 +115,16 @@ def shape_chart(results: DiagnosisResults) -> Chart:
             Panel(
                 layers,
                 shape_words(shape),
-                "velocity",
+                "velocity, m/s",
                 "misfit, standard errors",
-                x_ticks=["slow", "middle", "fast"],
+                x_ticks=list(results.thirds.values()),
                 y_range=(0, 1.15 * max(largest, 1)),
             )
         )
     return Chart(
         "ladder_by_shape",
         "Misfit by shape, before and after",
-        "Root mean square of the whitened deviations of all sizes, fitted and left-out shots "
+        "Root mean square of the whitened deviations of all sizes, shots fitted and held back "
         "together, for each third of the velocities; 1 (grey) is what the errors explain.",
         panels if count > 1 else [],
         columns=min(4, max(len(panels), 2)),
@@ -144,12 +142,12 @@ def _by_shape_size_third(groups: list[dict]) -> dict[tuple, dict]:
 
 
 def _misfit_by_shape(groups: list[dict]) -> dict[str, list[float | None]]:
-    """For each shape its whitened root mean square in the slow, middle and fast third."""
+    """For each shape its whitened root mean square in each third of the velocities."""
     found = _by_shape_size_third(groups)
     misfits = {}
     for shape in dict.fromkeys(key[0] for key in found):
         values = []
-        for third in THIRD_WORDS:
+        for third in THIRDS:
             cells = [g for key, g in found.items() if key[0] == shape and key[2] == third]
             count = sum(cell["n"] for cell in cells)
             chi2 = sum(cell["n"] * cell["whitened_rms"] ** 2 for cell in cells)
@@ -170,17 +168,15 @@ def size_chart(results: DiagnosisResults) -> Chart:
         weight = abs(group["mean_whitened"]) * sqrt(group["n"])
         largest[shape, size] = max(largest.get((shape, size), 0), weight)
     worst = sorted(largest, key=lambda pair: -largest[pair])[:MOST_PANELS]
-    panels = [
-        _size_panel(first, last, *pair, several=len({shape for shape, _ in largest}) > 1)
-        for pair in worst
-    ]
+    several = len({shape for shape, _ in largest}) > 1
+    panels = [_size_panel(results.thirds, first, last, *pair, several) for pair in worst]
     which = (
         f" The {MOST_PANELS} worst before, of {len(largest)}." if len(largest) > len(worst) else ""
     )
     return Chart(
         "ladder_by_size",
-        "Deviations by size, before and after",
-        "Mean of measurement minus model, in per cent of the size, for each third of the "
+        "Measured − model by size, before and after",
+        f"Mean deviation, {relative_words([size for _, size in worst])}, for each third of the "
         f"velocities. After: with all effects of the last revision.{which}",
         panels,
         columns=3,
@@ -189,16 +185,19 @@ def size_chart(results: DiagnosisResults) -> Chart:
     )
 
 
-def _size_panel(first: dict, last: dict, shape: str, size: str, several: bool) -> Panel:
+def _size_panel(
+    thirds: dict[str, str], first: dict, last: dict, shape: str, size: str, several: bool
+) -> Panel:
     layers = [Line([-0.3, 2.3], [0, 0], "faint", width=1)]
     for groups, colour, words in ((first, BEFORE, "before"), (last, AFTER, "after")):
-        found = [groups.get((shape, size, third)) for third in THIRD_WORDS]
+        found = [groups.get((shape, size, third)) for third in thirds]
         x = [index for index, cell in enumerate(found) if cell]
         y = [100 * cell["mean_relative"] for cell in found if cell]
         layers.append(Line(x, y, colour, dashed=words == "before"))
         layers.append(Points(x, y, colour, legend=words))
     title = f"{shape_words(shape)}, {size_words(size)}" if several else size_words(size)
-    return Panel(layers, title, "velocity", "deviation, %", x_ticks=["slow", "middle", "fast"])
+    ticks = list(thirds.values())
+    return Panel(layers, title, "velocity, m/s", "measured − model, %", x_ticks=ticks)
 
 
 def confirmation_chart(results: DiagnosisResults) -> Chart:

@@ -5,7 +5,7 @@ from report.chart import PALETTE, Band, Chart, Intervals, Line, Panel, Points
 from report.chart import ordered_colour
 from report.results import Results
 from report.words import USE_WORDS, lot_words, sentence_case, shape_words, size_words
-from study import is_radial
+from size_kinds import is_radial
 
 USE_SYMBOL = {"calibrate": {}, "validate": {"hollow": True}, "ignore": {"symbol": "cross"}}
 
@@ -210,9 +210,12 @@ def _parity_panel(size: str, entries: list, key: str, names: list[str], words) -
                         **USE_SYMBOL[use],
                     )
                 )
-    held_back = Points(
-        [], [], "ink", legend=USE_WORDS["validate"], legend_rank=len(names), hollow=True
-    )
     over = "D₀" if is_radial(size) else "L₀"
     title = f"{size_words(size)} / {over}"
-    return Panel([*layers, held_back], title, "model", "measured", x_range=tuple(ends))
+    layers.append(held_back_legend(len(names)))
+    return Panel(layers, title, "model", "measured", x_range=tuple(ends))
+
+
+def held_back_legend(rank: int) -> Points:
+    """An entry for the hollow marks of all colours."""
+    return Points([], [], "ink", legend=USE_WORDS["validate"], legend_rank=rank, hollow=True)

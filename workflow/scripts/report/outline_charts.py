@@ -7,7 +7,7 @@ from outlines.measured import read_outline
 from report.chart import ACCENT, Band, Chart, Line, Panel, Points
 from report.results import Results
 from report.words import listed, shape_words
-from study import OUTLINE_SCORES
+from size_kinds import OUTLINE_SCORES
 
 NORMAL_95 = 1.96
 PLUS, MINUS = "#d9772f", "#2f9e73"

@@ -2,7 +2,6 @@
 
 import base64
 import gzip
-import os
 from functools import cache
 from pathlib import Path
 
@@ -10,6 +9,7 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 from plotly.offline import get_plotlyjs
 
+from atomic_file import write_text
 from report import words
 from report.chart import Chart
 from report.plotly_chart import plotly_json
@@ -36,9 +36,7 @@ def write_page(
         for chart in section:
             save_png(chart, plots, mark)
     text = _render(template, style.read_text(encoding="utf-8"), charts, plots.name, context)
-    partial = page.with_name(page.name + ".tmp")
-    partial.write_text(text, encoding="utf-8")
-    os.replace(partial, page)
+    write_text(page, text)
 
 
 def _render(template: Path, style: str, charts: dict, plots: str, context: dict) -> str:

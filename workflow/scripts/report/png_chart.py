@@ -12,7 +12,7 @@ from report.chart import Points, Spans
 THEME = {"ink": "#1f2328", "soft": "#5c646d", "faint": "#9aa1a9", "grid": "#e8eaed"}
 SYMBOLS = {"circle": "o", "cross": "x", "star": "*", "diamond": "D"}
 WIDTH_INCHES, PIXELS_PER_INCH = 10.4, 96
-LETTERS_A_LINE, LINE_INCHES = 125, 0.25
+LETTERS_A_LINE, LINE_INCHES = 160, 0.25
 STYLE = {
     "font.size": 9,
     "axes.titlesize": 9.5,
@@ -33,7 +33,8 @@ def save_png(chart: Chart, folder: Path, mark: str = "") -> None:
     with matplotlib.rc_context(STYLE):
         height = chart.rows * chart.row_height / PIXELS_PER_INCH + 0.5
         figure = Figure(figsize=(WIDTH_INCHES, height), layout="constrained")
-        figure.suptitle(chart.title + mark, x=0.01, ha="left", weight="bold", size=11)
+        title = chart.title + mark
+        figure.suptitle(title, x=0.01, ha="left", weight="bold", size=11)
         grid = figure.subplots(chart.rows, chart.columns, squeeze=False).ravel()
         for axes in grid[len(chart.panels) :]:
             axes.set_axis_off()
@@ -42,11 +43,11 @@ def save_png(chart: Chart, folder: Path, mark: str = "") -> None:
             if chart.shared_rows and index % chart.columns:
                 axes.tick_params(labelleft=False)
         if chart.legend:
-            _legend(figure, grid, chart)
+            _legend(figure, grid, chart, title)
         figure.savefig(folder / f"{chart.name}.png", dpi=150, metadata={"Software": None})
 
 
-def _legend(figure, grid, chart: Chart) -> None:
+def _legend(figure, grid, chart: Chart, title: str) -> None:
     """Beside the title, or on a line of its own below it where both would not fit."""
     entries = {}
     for axes in grid:
@@ -62,7 +63,7 @@ def _legend(figure, grid, chart: Chart) -> None:
     if not entries:
         return
     top = 1
-    letters = len(chart.title) * 1.3 + sum(len(name) + 5 for name in entries)
+    letters = len(title) * 1.38 + sum(len(name) + 8 for name in entries)
     if letters > LETTERS_A_LINE:
         height = figure.get_figheight() + LINE_INCHES
         figure.set_figheight(height)

@@ -5,6 +5,7 @@ from pathlib import Path
 
 from file_digest import sha256_of
 from report.results import Results
+from report.stages import STAGES
 
 # What each stage reads besides its settings, by the names of the report's inputs.
 READ_BY = {
@@ -36,16 +37,8 @@ def _files(name: str, inputs: dict[str, Path]) -> list[tuple[str, str]]:
     return rows + [(f"made from {inputs[of].name}", sha256_of(inputs[of])) for of in READ_BY[name]]
 
 
-STAGES_OF = {
-    "database": ["runs", "further_runs", "merge"],
-    "emulator": ["better_runs", "first_train", "first_sample", "near_runs", "train"],
-    "posterior": ["sample"],
-    "comparison": ["compare"],
-}
-
-
 def _costs(name: str, costs: list[dict]) -> list[tuple[str, str]]:
-    own = [cost for cost in costs if cost["stage"] in STAGES_OF[name]]
+    own = [cost for cost in costs if STAGES[cost["stage"]].result == name]
     if not own:
         return []
     wall_s, cpu_s = (sum(cost[key] for cost in own) for key in ("wall_s", "cpu_s"))

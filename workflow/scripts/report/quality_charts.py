@@ -4,21 +4,8 @@ import numpy as np
 
 from report.chart import PALETTE, Bars, Chart, Histogram, Line, Panel, Points
 from report.results import Results
+from report.stages import STAGES
 from report.words import duration, shape_words, size_words
-
-STAGE_WORDS = {
-    "design": "design",
-    "runs": "solver runs",
-    "further_runs": "further solver runs",
-    "merge": "merging",
-    "better_runs": "runs of the better solver",
-    "first_train": "first training",
-    "first_sample": "first sampling",
-    "near_runs": "runs near its posterior",
-    "train": "training",
-    "sample": "sampling",
-    "compare": "comparing",
-}
 
 
 def network_chart(results: Results) -> Chart:
@@ -33,7 +20,8 @@ def network_chart(results: Results) -> Chart:
             solver = [pair["solver"] for pair in mine]
             error = [pair["network"] - pair["solver"] for pair in mine]
             words = shape_words(shape) if len(shapes) > 1 else ""
-            layers.append(Points(solver, error, PALETTE[index], size=4.5, legend=words))
+            colour = PALETTE[index % len(PALETTE)]
+            layers.append(Points(solver, error, colour, size=4.5, legend=words))
         spread = [value for layer in layers for value in layer.x]
         if not spread:
             continue
@@ -56,7 +44,7 @@ def cost_chart(results: Results) -> Chart:
     panels = []
     if costs:
         bars = Bars(
-            [STAGE_WORDS[cost["stage"]] for cost in costs],
+            [STAGES[cost["stage"]].words for cost in costs],
             [cost["wall_s"] for cost in costs],
             [duration(cost["wall_s"]) for cost in costs],
         )

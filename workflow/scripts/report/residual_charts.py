@@ -3,54 +3,54 @@
 from statistics import NormalDist, mean
 
 from report.chart import PALETTE, Band, Cells, Chart, Line, Panel, Points
-from report.model_charts import USE_SYMBOL, grouping
+from report.model_charts import USE_SYMBOL, grouping, held_back_legend
 from report.results import Results
-from report.words import THIRD_WORDS, USE_WORDS, lot_words, shape_words
-from report.words import signed_percent, size_words
-from study import OUTLINE_SCORES
+from report.words import THIRDS, USE_WORDS, lot_words, relative_words, shape_words
+from report.words import signed_percent, size_words, third_words
+from size_kinds import OUTLINE_SCORES
 
 FULL_COLOUR = 4.0  # mean deviation in standard errors that gets the full colour
 BY_SHAPE_SIZE_THIRD = "shape x size x velocity_third"
 
 
-def heat_map(groups: list[dict]) -> Chart:
+def heat_map(comparison: dict) -> Chart:
     """A panel for each shape: sizes against thirds of the velocities.
 
-    `groups` are those of comparison.json; of other groupings than shape x size x third
-    nothing is shown.
+    Of other groupings in comparison.json than shape x size x third nothing is shown.
     """
     found = {
         tuple(group["key"].split(" x ")): group
-        for group in groups
+        for group in comparison["groups"]
         if group["by"] == BY_SHAPE_SIZE_THIRD
     }
     shapes = list(dict.fromkeys(shape for shape, _, _ in found))
     sizes = list(dict.fromkeys(size for _, size, _ in found))
-    thirds = [third for third in THIRD_WORDS if any(key[2] == third for key in found)]
-    words = THIRD_WORDS if len(shapes) == 1 else {third: third for third in thirds}
-    words |= {} if len(shapes) == 1 else {"low": "slow", "high": "fast"}
+    several = len(shapes) > 1
+    by = "shape, size and velocity in m/s" if several else "size and velocity"
+    thirds = [third for third in THIRDS if any(key[2] == third for key in found)]
+    words = third_words(comparison["velocity_thirds_m_s"], narrow=several)
     panels = [
         _cell_panel(
             [size_words(size) for size in sizes],
             [words[third] for third in thirds],
             [[found.get((shape, size, third)) for third in thirds] for size in sizes],
-            shape_words(shape) if len(shapes) > 1 else "",
-            several=len(shapes) > 1,
+            shape_words(shape) if several else "",
+            several=several,
         )
         for shape in shapes
     ]
     return Chart(
         "residuals",
-        "By shape, size and velocity" if len(shapes) > 1 else "By size and velocity",
-        "Mean deviation of the measurement from the model, in per cent of the size, for each third "
-        "of the velocities. Orange: measured larger than the model; blue: smaller. The colour is "
-        "the mean of the whitened deviations: of what is left when each datum is divided by its "
-        f"error and cleared of what the shot's other sizes say; full at {FULL_COLOUR:.0f}. Below: "
-        "their root mean square in standard errors (s.e.; 1 is what the errors explain) and the "
-        "number n of data.",
+        f"Measured − model by {by}",
+        f"Mean deviation of the measurement from the model, {relative_words(sizes)}, for each "
+        "third of the velocities. Orange: measured larger than the model; blue: smaller. The "
+        "colour is the mean of the whitened deviations: of what is left when each datum is divided "
+        f"by its error and cleared of what the shot's other sizes say; full at {FULL_COLOUR:.0f}. "
+        "Below: their root mean square in standard errors (s.e.; 1 is what the errors explain) and "
+        "the number n of data.",
         panels,
         columns=max(len(panels), 1),
-        row_height=54 + (58 if len(shapes) > 1 else 46) * len(sizes),
+        row_height=54 + (58 if several else 46) * len(sizes),
         shared_rows=True,
     )
 
@@ -81,14 +81,17 @@ def lot_heat_map(results: Results) -> Chart:
         [[summary(cells.get((lot, size))) for size in sizes] for lot in lots],
     )
     height = 40 + 46 * len(lots)
-    return Chart("residuals_by_lot", "By lot", "", [panel], columns=1, row_height=height)
+    title = "Measured − model by lot"
+    return Chart("residuals_by_lot", title, "", [panel], columns=1, row_height=height)
 
 
 def _reference(cell: dict, shot: dict) -> float:
-    """What a deviation is relative to: the size, or the diameter for a score near zero."""
+    """What a deviation is relative to; of sizes that may vanish it is one before impact."""
     if cell["size"] in OUTLINE_SCORES:
         return shot["initial_diameter_mm"]
-    return max(cell["measured"], cell["sd"])
+    if cell["size"] == "undeformed_length_mm":
+        return shot["initial_length_mm"]
+    return cell["measured"]
 
 
 def _cell_panel(rows, columns, cells, title="", several=False) -> Panel:
@@ -128,11 +131,13 @@ def scatter_chart(results: Results) -> Chart:
                             [cell["whitened"] for _, cell in mine],
                             PALETTE[index % len(PALETTE)],
                             labels=[_label(*entry) for entry in mine],
-                            legend=words(name),
+                            legend=words(name) if use == "calibrate" else "",
+                            legend_rank=index,
                             size=6,
                             **style,
                         )
                     )
+        layers.append(held_back_legend(len(names)))
         title = size_words(size)
         panels.append(Panel(layers, title, "velocity, m/s", "deviation, standard errors"))
     return Chart(

@@ -8,9 +8,12 @@ from pathlib import Path
 import h5py
 import numpy as np
 
+from database_costs import read_costs
 from job_log import job_record
+from json_file import read_json
 from measurements import read_measurements
 from outlines.basis import OutlineBasis, read_basis
+from report.stages import STAGES
 
 
 @dataclass
@@ -66,10 +69,10 @@ class Results:
 
 def load_results(inputs: dict[str, Path], benchmarks: Path) -> Results:
     return Results(
-        settings=_json(inputs["settings"]),
+        settings=read_json(inputs["settings"]),
         rows=read_measurements(inputs["measurements"]),
-        comparison=_json(inputs["comparison"]),
-        emulator=_json(inputs["emulator"]),
+        comparison=read_json(inputs["comparison"]),
+        emulator=read_json(inputs["emulator"]),
         posterior=_posterior(inputs["posterior"]),
         database=_database(inputs["database"]),
         stage_costs=_stage_costs(benchmarks),
@@ -80,12 +83,8 @@ def load_results(inputs: dict[str, Path], benchmarks: Path) -> Results:
 def _outlines(inputs: dict[str, Path]) -> Outlines | None:
     if "outline_basis" not in inputs:
         return None
-    basis, projections = read_basis(inputs["outline_basis"]), _json(inputs["outline_scores"])
+    basis, projections = read_basis(inputs["outline_basis"]), read_json(inputs["outline_scores"])
     return Outlines(inputs["measurements"], basis, projections)
-
-
-def _json(path: Path) -> dict:
-    return json.loads(Path(path).read_text(encoding="utf-8"))
 
 
 def _texts(values) -> list[str]:
@@ -137,19 +136,14 @@ def _database(path: Path) -> Database:
             "descriptors": {name: columns[:, index] for index, name in enumerate(names)},
             "attributes": _attributes(file),
         }
-    return Database(**found, cpu_s=_run_costs(Path(f"{path}.cost.csv")))
+    return Database(**found, cpu_s=_run_costs(path))
 
 
-def _run_costs(path: Path) -> list[float]:
+def _run_costs(database: Path) -> list[float]:
     """CPU seconds lie beside the database, whose bytes must not depend on them."""
-    if not path.exists():
+    if not Path(f"{database}.cost.csv").exists():
         return []
-    with path.open(newline="") as file:
-        return [float(row["cpu_s"]) for row in csv.DictReader(file)]
-
-
-STAGES = ["design", "runs", "further_runs", "merge", "better_runs"]
-STAGES += ["first_train", "first_sample", "near_runs", "train", "sample", "compare"]
+    return list(read_costs(database).values())
 
 
 def _stage_costs(folder: Path) -> list[dict]:

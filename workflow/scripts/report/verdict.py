@@ -25,11 +25,12 @@ MOST_ROWS = 8
 def heading(verdict: dict) -> str:
     """The verdict as a line of its own; `effects` in words."""
     effects = [effect_words(name) for name in verdict["effects"]]
+    together = f"Missing effect{'s' if effects[1:] else ''}: {listed(effects)}"
     shots = listed(verdict["shots"])
     either = " or ".join([", ".join(effects[:-1]), effects[-1]] if effects[1:] else effects)
     return {
         "no effect supported": "No effect supported",
-        "effect": f"Missing effect: {either}",
+        "effect": together,
         "one of": f"One of these is missing: {either}",
         "not distinguishable": "Something is missing, but these data cannot tell what"
         + (f": {either}" if effects else ""),

@@ -2,11 +2,12 @@
 
 import math
 import re
+from collections.abc import Iterable
 
 from markupsafe import Markup, escape
 
 from shape_names import in_words
-from study import OUTLINE_SCORES
+from size_kinds import OUTLINE_SCORES
 
 SIZE_WORDS = {
     "final_length_mm": "final length",
@@ -71,11 +72,28 @@ UNIT_WORDS = {
     "deg": "°",
 }
 USE_WORDS = {"calibrate": "fitted", "validate": "held back", "ignore": "left out"}
-THIRD_WORDS = {"low": "slow third", "middle": "middle third", "high": "fast third"}
+THIRDS = {"low": "slow third", "middle": "middle third", "high": "fast third"}
 
 
 def shape_words(shape: str) -> str:
     return "all shapes" if shape == "all" else in_words(shape)
+
+
+def third_words(limits: list[float], narrow: bool = False) -> dict[str, str]:
+    """Thirds of the velocities, which meet at `limits` [m/s]; "slow third, ≤ 63 m/s" or "≤ 63"."""
+    low, high = (f"{limit:.0f}" for limit in limits)
+    spans = dict(zip(THIRDS, (f"≤ {low}", f"{low}–{high}", f"> {high}")))
+    return spans if narrow else {key: f"{THIRDS[key]}, {spans[key]} m/s" for key in THIRDS}
+
+
+def relative_words(sizes: Iterable[str]) -> str:
+    """What deviations in per cent of these sizes refer to; as `calibrate` has it."""
+    others = []
+    if "undeformed_length_mm" in sizes:
+        others.append("the undeformed length's of L0")
+    if set(OUTLINE_SCORES) & set(sizes):
+        others.append("outlines' of the initial diameter")
+    return "in per cent of the size" + (f" ({', '.join(others)})" if others else "")
 
 
 def split_name(name: str) -> tuple[str, str]:

@@ -1,8 +1,7 @@
 #pragma once
 
-#include "calibrate/comparison/shot_comparison.hpp"
+#include "calibrate/comparison/joint_errors.hpp"
 
-#include <array>
 #include <string>
 #include <vector>
 
@@ -29,14 +28,17 @@ struct ResidualGroup {
     double rms_relative = 0;
     double mean_relative = 0;  ///< of (measured - predicted) / scale
     double mean_standardised = 0;
+    double mean_standardised_sd = 0;  ///< standard error, from the errors' covariance
     double mean_whitened = 0;
     double whitened_rms = 0;
+    double whitened_rms_sd = 0;  ///< standard error about 1, likewise
     std::string words{};
 };
 
 /// By size, shape, lot, velocity third and use, and by shape x size x velocity third, in
 /// order of first appearance.
 std::vector<ResidualGroup> group_residuals(const std::vector<ShotComparison>& shots,
-                                           const std::vector<std::string>& sizes);
+                                           const std::vector<std::string>& sizes,
+                                           const JointErrors& errors);
 
 }  // namespace taylorcal::calibrate

@@ -32,7 +32,9 @@ std::vector<ResidualGroup> groups_of(const std::vector<std::string>& shapes, dou
         shot.residual = 0.1 * shot.whitened;
         shots.push_back(shot);
     }
-    return group_residuals(shots, set.sizes);
+    const auto n = std::ssize(shots);
+    const Eigen::MatrixXd independent = Eigen::MatrixXd::Identity(n, n);
+    return group_residuals(shots, set.sizes, {independent, independent});
 }
 
 ResidualGroup find(const std::vector<ResidualGroup>& groups, const std::string& key) {

@@ -1,5 +1,6 @@
 #include "calibrate/comparison/comparison.hpp"
 #include "calibrate/likelihood/common_error.hpp"
+#include "calibrate/likelihood/errors_of_shot.hpp"
 #include "common/random.hpp"
 #include "tests/unit/calibrate/toy_models.hpp"
 
@@ -13,6 +14,7 @@
 
 using namespace taylorcal;
 using namespace taylorcal::calibrate;
+using Catch::Matchers::Contains;
 
 namespace {
 
@@ -147,6 +149,12 @@ void check_influence(const NeighbouringShots& c) {
     }
 }
 
+const nlohmann::json& group(const nlohmann::json& comparison, const std::string& key) {
+    for (const auto& entry : comparison["groups"])
+        if (entry["key"] == key) return entry;
+    throw std::out_of_range(key);
+}
+
 }  // namespace
 
 TEST_CASE("a shot is left out with what the others say of its error", "[influence]") {
@@ -155,4 +163,76 @@ TEST_CASE("a shot is left out with what the others say of its error", "[influenc
 
 TEST_CASE("a shot with errors of its own is left out by its likelihood", "[influence]") {
     check_influence(NeighbouringShots(NetworkErrors::independent));
+}
+
+TEST_CASE("a group's mean is as sure as its errors in common allow", "[comparison]") {
+    const NeighbouringShots c(NetworkErrors::common);
+    const nlohmann::json found = c.compare();
+    const Eigen::VectorXd sd = c.covariance.diagonal().cwiseSqrt();
+    const Eigen::MatrixXd correlations = c.covariance.cwiseQuotient(sd * sd.transpose());
+    const std::vector<int> lengths{0, 2, 4, 6, 8, 10};
+    const double mean_sd =
+        std::sqrt(correlations(lengths, lengths).sum()) / NeighbouringShots::count;
+    REQUIRE(mean_sd > 1.5 / std::sqrt(NeighbouringShots::count));
+    CHECK(group(found, "final_length_mm")["mean_standardised_sd"].get<double>() ==
+          Approx(mean_sd));
+
+    // Draws of the whitened errors of all data.
+    const Eigen::MatrixXd root = c.covariance.llt().matrixL();
+    const RandomStream noise(11, 3);
+    const int n = 2 * NeighbouringShots::count, tables = 20000;
+    double sum = 0, sum_of_squares = 0;
+    for (int t = 0; t < tables; ++t) {
+        Eigen::VectorXd z(n);
+        for (int i = 0; i < n; ++i)
+            z(i) = noise.normal(static_cast<std::uint64_t>(n * t + i));
+        const Eigen::VectorXd error = root * z;
+        double mean_square = 0;
+        for (int i = 0; i < n; i += 2)
+            mean_square += Eigen::MatrixXd(c.covariance.block(i, i, 2, 2))
+                               .llt()
+                               .matrixL()
+                               .solve(error.segment(i, 2))
+                               .squaredNorm() /
+                           n;
+        sum += mean_square / tables;
+        sum_of_squares += mean_square * mean_square / tables;
+    }
+    CHECK(sum == Approx(1).epsilon(0.02));
+    CHECK(group(found, "lot")["whitened_rms_sd"].get<double>() ==
+          Approx(std::sqrt(sum_of_squares - sum * sum) / 2).epsilon(0.03));
+}
+
+TEST_CASE("an error of all shots in common is no direction", "[comparison]") {
+    // All lengths 1.5 standard errors off: sure if independent, likely if in common.
+    const auto words = [](NetworkErrors errors) {
+        NeighbouringShots c(errors);
+        std::vector<Shot> shots;
+        for (Datum& datum : c.set.data) {
+            const double sd = std::sqrt(fixed_covariance(c.settings, c.model, datum,
+                                                         Eigen::VectorXd::Zero(2))(0, 0));
+            datum.shot.sizes = {{"final_length_mm", 40 + 1.5 * sd, 0.08},
+                                {"impact_diameter_mm", 10, 0.06}};
+            shots.push_back(datum.shot);
+            shots.back().use = Use::validate;
+        }
+        shots.push_back(shots.front());
+        shots.back().lot = "fitted";
+        shots.back().use = Use::calibrate;
+        shots.back().sizes[0].value_mm = 40;
+        c.set = make_data_set(shots, c.settings.fit_sizes);
+        StoredPosterior stored;
+        stored.draws = stored.maxima = RowMatrix::Zero(1, 2);
+        stored.units = stored.maxima_units = RowMatrix::Constant(1, 2, 0.5);
+        stored.levels = stored.maxima_levels = {0};
+        stored.reference = Eigen::VectorXd::Constant(2, 0.5);
+        const ParameterSpace space(c.settings.parameters, c.set.lots);
+        const SpreadLevels levels = spread_levels(c.settings);
+        const ComparisonInputs inputs{c.settings, c.set, space, levels, c.model, stored};
+        return group(to_json(compare_with_measurements(inputs), inputs),
+                     "final_length_mm")["words"]
+            .get<std::string>();
+    };
+    CHECK_THAT(words(NetworkErrors::independent), Contains("too short"));
+    CHECK_THAT(words(NetworkErrors::common), Contains("within the errors"));
 }

@@ -74,11 +74,14 @@ void add_fit_errors(const std::vector<Place>& places, const CorrectedPredictor& 
 /// base runs to them: (1/8^2)/(1/5^2 - 1/8^2) = 0.64 for 5 and 8 cells, 0.8 for 8 and 12.
 constexpr double left_to_limit = 0.7;
 
+/// Share of the resolution's pattern that each size may be off by of its own, as the
+/// pattern is known from few runs.
+constexpr double resolution_by_size = 0.5;
+
 /// Directions in which finer cells would move all shots of a shape: the whole pattern,
-/// and half of it by size, as the pattern is known from few runs.
+/// and part of it by size.
 void add_resolution(const CorrectedPredictor& predictor, const std::vector<Place>& places,
                     Eigen::MatrixXd& covariance) {
-    constexpr double by_size = 0.5;
     const auto n = static_cast<Eigen::Index>(places.size());
     Eigen::VectorXd pattern = Eigen::VectorXd::Zero(n);
     for (Eigen::Index i = 0; i < n; ++i) {
@@ -93,7 +96,8 @@ void add_resolution(const CorrectedPredictor& predictor, const std::vector<Place
             const Place& a = places[static_cast<std::size_t>(i)];
             const Place& b = places[static_cast<std::size_t>(j)];
             if (a.datum->shot.shape != b.datum->shot.shape) continue;
-            const double share = 1 + (a.output == b.output ? by_size * by_size : 0);
+            const double share =
+                1 + (a.output == b.output ? resolution_by_size * resolution_by_size : 0);
             covariance(i, j) += share * pattern(i) * pattern(j);
         }
 }
@@ -206,6 +210,7 @@ Eigen::MatrixXd covariance_of_new_shot(const CorrectedPredictor& predictor,
                                 *shape.resolution,
                                 predictor.inputs(shot, parameters.row(0).transpose())));
         covariance += area * pattern * pattern.transpose();
+        covariance.diagonal() += area * (resolution_by_size * pattern).cwiseAbs2();
     }
     return covariance;
 }

@@ -240,6 +240,32 @@ TEST_CASE("the next shots do not depend on the order of the table", "[study]") {
     }
 }
 
+TEST_CASE("a new shot's resolution errs as that of the shots of the table", "[study]") {
+    const ToyStudy toy(0);
+    const ParameterSpace space(toy.settings.parameters, toy.set.lots);
+    const Eigen::VectorXd unit = Eigen::VectorXd::Constant(1, 0.4);
+    std::vector<Eigen::MatrixXd> of_table, of_new_shot;
+    const Eigen::Vector2d change(-0.2, 0.1);
+    // The other errors are the same with half the change.
+    for (const double share : {1.0, 0.5})
+        toy.with_study(
+            paired_rows(),
+            [&](const DiagnosisStudy& study) {
+                const Datum& datum = study.data().front();
+                const CorrectedModel model(study.predictor(), space, {&datum}, unit);
+                of_table.push_back(
+                    error_budget(study.predictor(), model, toy.settings).resolution);
+                of_new_shot.push_back(covariance_of_new_shot(
+                    study.predictor(), toy.settings, datum.shot,
+                    space.lot_parameters(unit.transpose(), 0), Eigen::Vector2d::Zero()));
+            },
+            share * change);
+    const Eigen::MatrixXd expected = of_table[0] - of_table[1];
+    const Eigen::MatrixXd found = of_new_shot[0] - of_new_shot[1];
+    REQUIRE(expected.norm() > 1e-3);
+    CHECK((found - expected).norm() < 1e-6 * expected.norm());
+}
+
 TEST_CASE("a candidate without runs could not be seen", "[study]") {
     std::vector<Row> rows;
     for (const Row& row : paired_rows())

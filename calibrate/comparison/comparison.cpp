@@ -13,7 +13,6 @@ Comparison compare_with_measurements(const ComparisonInputs& inputs) {
     result.shots = compare_shots(inputs);
     result.groups = group_residuals(result.shots, inputs.set.sizes,
                                     joint_errors(inputs, result.shots));
-    result.thirds = velocity_thirds(result.shots);
     result.fitted = misfit(result.shots, Use::calibrate, best_spread);
     result.held_back = misfit(result.shots, Use::validate, best_spread);
     result.conflicts = find_conflicts(inputs, result.shots);

@@ -108,6 +108,7 @@ json list_of(const std::vector<Item>& items) {
 }  // namespace
 
 json to_json(const Comparison& comparison, const ComparisonInputs& inputs) {
+    const ThirdsOfVelocity thirds = thirds_of(comparison.shots);
     json shots = json::array();
     for (const ShotComparison& shot : comparison.shots)
         shots.push_back(to_json(shot, inputs.set.sizes));
@@ -118,8 +119,7 @@ json to_json(const Comparison& comparison, const ComparisonInputs& inputs) {
              {{"calibrate", to_json(comparison.fitted)},
               {"validate", to_json(comparison.held_back)}}},
             {"findings", findings(comparison)},
-            {"velocity_thirds_m_s",
-             {comparison.thirds.low_to_middle, comparison.thirds.middle_to_high}},
+            {"velocity_thirds_m_s", {thirds.middle_from(), thirds.high_from()}},
             {"groups", list_of(comparison.groups)},
             {"conflicts", list_of(comparison.conflicts)},
             {"influence", list_of(comparison.influence)},

@@ -20,7 +20,7 @@ struct Residual {
 
 std::vector<Residual> list_residuals(const std::vector<ShotComparison>& shots,
                                      const std::vector<std::string>& sizes) {
-    const VelocityThirds thirds = velocity_thirds(shots);
+    const ThirdsOfVelocity thirds = thirds_of(shots);
     std::vector<Residual> all;
     for (const ShotComparison& shot : shots) {
         const Shot& row = shot.datum->shot;
@@ -88,19 +88,9 @@ void add_groups(std::vector<ResidualGroup>& groups, const std::string& by,
 
 }  // namespace
 
-std::string VelocityThirds::word(double velocity_m_s) const {
-    if (velocity_m_s <= low_to_middle) return "low";
-    return velocity_m_s <= middle_to_high ? "middle" : "high";
-}
-
-VelocityThirds velocity_thirds(const std::vector<ShotComparison>& shots) {
-    std::vector<double> velocities;
-    velocities.reserve(shots.size());
-    for (const ShotComparison& shot : shots)
-        velocities.push_back(shot.datum->shot.velocity_m_s);
-    std::sort(velocities.begin(), velocities.end());
-    const std::size_t n = velocities.size();
-    return {velocities[(n - 1) / 3], velocities[2 * (n - 1) / 3]};
+ThirdsOfVelocity thirds_of(const std::vector<ShotComparison>& shots) {
+    return {shots,
+            [](const ShotComparison& shot) { return shot.datum->shot.velocity_m_s; }};
 }
 
 std::vector<ResidualGroup> group_residuals(const std::vector<ShotComparison>& shots,

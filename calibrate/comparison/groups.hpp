@@ -1,20 +1,15 @@
 #pragma once
 
 #include "calibrate/comparison/joint_errors.hpp"
+#include "calibrate/measurements/velocity_thirds.hpp"
 
 #include <string>
 #include <vector>
 
 namespace taylorcal::calibrate {
 
-/// Bounds between the low, middle and high third of the shots by velocity [m/s].
-struct VelocityThirds {
-    double low_to_middle = 0;
-    double middle_to_high = 0;
-    std::string word(double velocity_m_s) const;
-};
-
-VelocityThirds velocity_thirds(const std::vector<ShotComparison>& shots);
+/// Of all shots compared, fitted or held back.
+ThirdsOfVelocity thirds_of(const std::vector<ShotComparison>& shots);
 
 /// Residuals of the data that share a property.
 struct ResidualGroup {

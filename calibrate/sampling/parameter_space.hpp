@@ -20,7 +20,6 @@ class ParameterSpace {
     std::size_t per_lot_count() const { return per_lot_.size(); }
     std::size_t lot_count() const { return lots_.size(); }
     std::size_t size() const { return shared_.size() + lots_.size() * per_lot_.size(); }
-    const std::vector<std::string>& lots() const { return lots_; }
     const std::vector<Parameter>& parameters() const { return parameters_; }
 
     /// Names of the coordinates, e.g. "hardening_coefficient", "rho...[house]".

@@ -1,5 +1,7 @@
 #include "calibrate/diagnosis/error_budget.hpp"
 
+#include "calibrate/likelihood/errors_of_shot.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -108,11 +110,6 @@ const SmoothFit* network_error_of(const ShapeSignature& shape) {
 
 const SmoothFit* resolution_of(const ShapeSignature& shape) {
     return shape.resolution ? &*shape.resolution : nullptr;
-}
-
-double velocity_sd(const Settings& settings, const Shot& shot) {
-    return shot.velocity_sd_m_s.value_or(settings.velocity_sd_relative *
-                                         shot.velocity_m_s);
 }
 
 }  // namespace

@@ -10,6 +10,10 @@
 
 namespace taylorcal::calibrate {
 
+/// Where a plain value lies from lower (0) to upper (1), in the logarithm if the prior is
+/// uniform there; not the share of a normal prior.
+double place_in_range(const Parameter& parameter, double value);
+
 /// Maps between the unit cube, on which the prior is uniform, and plain values. A point
 /// of the cube holds the shared parameters first, then each lot's own ones, lot by lot.
 class ParameterSpace {

@@ -121,6 +121,7 @@ int main() {
     settings.unexplained_spread =
         UnexplainedSpread{0.02, {0, 0.005, 0.01, 0.02, 0.03, 0.05, 0.08}};
     settings.draws_from = DrawsFrom::prior;
+    settings.network_errors = NetworkErrors::independent;
     settings.draws = 4000000;
     const NetworkPredictor predictor = random_network(settings);
     const DataSet set = table_of(predictor, settings);

@@ -51,7 +51,7 @@ struct Settings {
     LikelihoodForm likelihood = LikelihoodForm::full;
     double velocity_sd_relative = 0.01;
     std::optional<UnexplainedSpread> unexplained_spread;
-    NetworkErrors network_errors = NetworkErrors::independent;
+    NetworkErrors network_errors = NetworkErrors::common;
     DrawsFrom draws_from = DrawsFrom::adapted;
     DrawSequence draw_sequence = DrawSequence::random;
     std::uint64_t draws = 20000;       ///< of the shared parameters

@@ -44,7 +44,7 @@ enum class DrawsFrom { adapted, prior };
 /// sequence.
 enum class DrawSequence { random, sobol };
 
-/// The configuration of `calibrate sample` and `calibrate compare` (calibrate.json).
+/// The configuration of all subcommands of `calibrate` (calibrate.json).
 struct Settings {
     std::vector<Parameter> parameters;
     std::vector<std::string> fit_sizes;

@@ -72,8 +72,10 @@ void add_fit_errors(const std::vector<Place>& places, const CorrectedPredictor& 
     }
 }
 
-/// What is left from the finer runs to the limit of fine cells, over the change from the
-/// base runs to them: (1/8^2)/(1/5^2 - 1/8^2) = 0.64 for 5 and 8 cells, 0.8 for 8 and 12.
+/// At most this is left from the finer runs to the limit of fine cells, over the change
+/// from the base runs to them: second order leaves (1/8^2)/(1/5^2 - 1/8^2) = 0.64 for
+/// cones, of 5 and 8 columns, and 0.26 to 0.45 for the other shapes, whose finer runs
+/// (`standard` cells) have 9 to 11.
 constexpr double left_to_limit = 0.7;
 
 /// Share of the resolution's pattern that each size may be off by of its own, as the

@@ -162,8 +162,7 @@ int main() {
     const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
     fmt::print(
         "  {:.3g} with draws dropped (after {:.2f} rows on average; their mass < "
-        "{:.0e}), "
-        "the search for the threshold included\n",
+        "{:.0e}), the search for the threshold included\n",
         static_cast<double>(settings.draws) / seconds, found.dropping.rows_per_draw,
         found.dropping.mass_bound);
 }

@@ -2,7 +2,6 @@
 #include "calibrate/prior_pass/sample_prior.hpp"
 #include "common/random.hpp"
 
-#include <algorithm>
 #include <ctime>
 #include <functional>
 

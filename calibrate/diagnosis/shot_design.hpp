@@ -2,7 +2,6 @@
 
 #include "calibrate/diagnosis/diagnosis_study.hpp"
 
-#include <string>
 #include <vector>
 
 namespace taylorcal::calibrate {

@@ -7,7 +7,6 @@
 #include "calibrate/sampling/draw_pool.hpp"
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include <Eigen/Core>

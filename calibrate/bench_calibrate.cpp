@@ -2,7 +2,6 @@
 #include "calibrate/prior_pass/sample_prior.hpp"
 #include "common/random.hpp"
 
-#include <algorithm>
 #include <ctime>
 #include <functional>
 
@@ -121,6 +120,7 @@ int main() {
     settings.unexplained_spread =
         UnexplainedSpread{0.02, {0, 0.005, 0.01, 0.02, 0.03, 0.05, 0.08}};
     settings.draws_from = DrawsFrom::prior;
+    settings.network_errors = NetworkErrors::independent;
     settings.draws = 4000000;
     const NetworkPredictor predictor = random_network(settings);
     const DataSet set = table_of(predictor, settings);
@@ -161,8 +161,7 @@ int main() {
     const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
     fmt::print(
         "  {:.3g} with draws dropped (after {:.2f} rows on average; their mass < "
-        "{:.0e}), "
-        "the search for the threshold included\n",
+        "{:.0e}), the search for the threshold included\n",
         static_cast<double>(settings.draws) / seconds, found.dropping.rows_per_draw,
         found.dropping.mass_bound);
 }

@@ -3,6 +3,7 @@
 #include "calibrate/comparison/comparison.hpp"
 #include "common/atomic_file.hpp"
 
+#include <algorithm>
 #include <cstdio>
 
 #include <fmt/core.h>

@@ -10,7 +10,6 @@
 #include "common/simd.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <functional>

@@ -9,7 +9,7 @@
 
 namespace taylorcal::calibrate {
 
-/// The files that both commands take.
+/// The files that all subcommands take.
 struct InputPaths {
     std::filesystem::path settings;
     std::filesystem::path measurements;

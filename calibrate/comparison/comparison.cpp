@@ -11,8 +11,8 @@ Comparison compare_with_measurements(const ComparisonInputs& inputs) {
     result.parameters = summarise(column_names(inputs.space, inputs.levels),
                                   posterior.draws, posterior.maxima.row(0));
     result.shots = compare_shots(inputs);
-    result.groups = group_residuals(result.shots, inputs.set.sizes);
-    result.thirds = velocity_thirds(result.shots);
+    result.groups = group_residuals(result.shots, inputs.set.sizes,
+                                    joint_errors(inputs, result.shots));
     result.fitted = misfit(result.shots, Use::calibrate, best_spread);
     result.held_back = misfit(result.shots, Use::validate, best_spread);
     result.conflicts = find_conflicts(inputs, result.shots);

@@ -19,7 +19,6 @@ struct Comparison {
     std::vector<ParameterSummary> parameters;
     std::vector<ShotComparison> shots;
     std::vector<ResidualGroup> groups;
-    VelocityThirds thirds;
     Misfit fitted;
     Misfit held_back;
     std::vector<Conflict> conflicts;

@@ -45,19 +45,19 @@ json to_json(const ResidualGroup& group) {
             {"rms_relative", group.rms_relative},
             {"mean_relative", group.mean_relative},
             {"mean_standardised", group.mean_standardised},
+            {"mean_standardised_sd", group.mean_standardised_sd},
             {"mean_whitened", group.mean_whitened},
             {"whitened_rms", group.whitened_rms},
+            {"whitened_rms_sd", group.whitened_rms_sd},
             {"words", group.words}};
 }
 
-json to_json(const Misfit& misfit, bool is_fitted) {
-    json entry{{"n", misfit.n},
-               {"chi2", misfit.chi2},
-               {"chi2_with_spread", misfit.chi2_with_spread},
-               {"rms_relative", misfit.rms_relative},
-               {"whitened_rms", misfit.whitened_rms}};
-    if (is_fitted) entry["p_effective"] = misfit.p_effective;
-    return entry;
+json to_json(const Misfit& misfit) {
+    return {{"n", misfit.n},
+            {"chi2", misfit.chi2},
+            {"chi2_with_spread", misfit.chi2_with_spread},
+            {"rms_relative", misfit.rms_relative},
+            {"whitened_rms", misfit.whitened_rms}};
 }
 
 json to_json(const ParameterSummary& p) {
@@ -108,6 +108,7 @@ json list_of(const std::vector<Item>& items) {
 }  // namespace
 
 json to_json(const Comparison& comparison, const ComparisonInputs& inputs) {
+    const ThirdsOfVelocity thirds = thirds_of(comparison.shots);
     json shots = json::array();
     for (const ShotComparison& shot : comparison.shots)
         shots.push_back(to_json(shot, inputs.set.sizes));
@@ -115,11 +116,10 @@ json to_json(const Comparison& comparison, const ComparisonInputs& inputs) {
             {"sign", "residual = measured - predicted; lengths in mm"},
             {"parameters", list_of(comparison.parameters)},
             {"misfit",
-             {{"calibrate", to_json(comparison.fitted, true)},
-              {"validate", to_json(comparison.held_back, false)}}},
+             {{"calibrate", to_json(comparison.fitted)},
+              {"validate", to_json(comparison.held_back)}}},
             {"findings", findings(comparison)},
-            {"velocity_thirds_m_s",
-             {comparison.thirds.low_to_middle, comparison.thirds.middle_to_high}},
+            {"velocity_thirds_m_s", {thirds.middle_from(), thirds.high_from()}},
             {"groups", list_of(comparison.groups)},
             {"conflicts", list_of(comparison.conflicts)},
             {"influence", list_of(comparison.influence)},

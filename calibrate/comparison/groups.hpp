@@ -1,21 +1,15 @@
 #pragma once
 
-#include "calibrate/comparison/shot_comparison.hpp"
+#include "calibrate/comparison/joint_errors.hpp"
+#include "calibrate/measurements/velocity_thirds.hpp"
 
-#include <array>
 #include <string>
 #include <vector>
 
 namespace taylorcal::calibrate {
 
-/// Bounds between the low, middle and high third of the shots by velocity [m/s].
-struct VelocityThirds {
-    double low_to_middle = 0;
-    double middle_to_high = 0;
-    std::string word(double velocity_m_s) const;
-};
-
-VelocityThirds velocity_thirds(const std::vector<ShotComparison>& shots);
+/// Of all shots compared, fitted or held back.
+ThirdsOfVelocity thirds_of(const std::vector<ShotComparison>& shots);
 
 /// Residuals of the data that share a property.
 struct ResidualGroup {
@@ -29,14 +23,17 @@ struct ResidualGroup {
     double rms_relative = 0;
     double mean_relative = 0;  ///< of (measured - predicted) / scale
     double mean_standardised = 0;
+    double mean_standardised_sd = 0;  ///< standard error, from the errors' covariance
     double mean_whitened = 0;
     double whitened_rms = 0;
+    double whitened_rms_sd = 0;  ///< standard error about 1, likewise
     std::string words{};
 };
 
 /// By size, shape, lot, velocity third and use, and by shape x size x velocity third, in
 /// order of first appearance.
 std::vector<ResidualGroup> group_residuals(const std::vector<ShotComparison>& shots,
-                                           const std::vector<std::string>& sizes);
+                                           const std::vector<std::string>& sizes,
+                                           const JointErrors& errors);
 
 }  // namespace taylorcal::calibrate

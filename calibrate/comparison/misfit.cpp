@@ -10,16 +10,10 @@ namespace taylorcal::calibrate {
 
 Misfit misfit(const std::vector<ShotComparison>& shots, Use use, double best_spread) {
     Misfit total;
-    double mean_chi2 = 0;
     for (const ShotComparison& shot : shots) {
         if (shot.datum->shot.use != use) continue;
         const Eigen::LLT<Eigen::MatrixXd> cholesky(
             with_spread(shot.fixed_covariance, *shot.datum, best_spread));
-        const Eigen::MatrixXd of_draws = cholesky.matrixL().solve(
-            (shot.draws.rowwise() - shot.datum->measured_mm.transpose())
-                .transpose()
-                .eval());
-        mean_chi2 += of_draws.squaredNorm() / static_cast<double>(shot.draws.rows());
         total.chi2_with_spread += cholesky.matrixL().solve(shot.residual).squaredNorm();
         total.chi2 += shot.whitened.squaredNorm();
         total.rms_relative +=
@@ -28,7 +22,6 @@ Misfit misfit(const std::vector<ShotComparison>& shots, Use use, double best_spr
     }
     if (total.n == 0) return total;
     const auto n = static_cast<double>(total.n);
-    total.p_effective = mean_chi2 - total.chi2_with_spread;
     total.rms_relative = std::sqrt(total.rms_relative / n);
     total.whitened_rms = std::sqrt(total.chi2 / n);
     return total;

@@ -20,14 +20,12 @@ std::string with_spaces(std::string name) {
 }
 
 bool is_beyond_errors(const ResidualGroup& group) {
-    // The standard error of a root mean square of n unit normals is about 1/sqrt(2 n).
-    return group.whitened_rms > 1 + clear / std::sqrt(2 * static_cast<double>(group.n));
+    return group.whitened_rms > 1 + clear * group.whitened_rms_sd;
 }
 
 bool has_direction(const ResidualGroup& group) {
     return !group.size.empty() &&
-           std::abs(group.mean_standardised) * std::sqrt(static_cast<double>(group.n)) >
-               clear;
+           std::abs(group.mean_standardised) > clear * group.mean_standardised_sd;
 }
 
 std::string direction(const ResidualGroup& group) {

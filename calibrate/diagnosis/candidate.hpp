@@ -23,14 +23,11 @@ struct AmplitudePrior {
 struct Candidate {
     std::string name;
     bool is_constant = false;
-    std::string symbol;
     std::string unit;
     double base = 0;  ///< value at which it is absent
     double lowest = 0;
     double highest = 1;
     AmplitudePrior prior;
-    std::string description;
-    std::string source;
 
     double lower() const { return lowest - base; }  ///< of the amplitude
     double upper() const { return highest - base; }

@@ -32,14 +32,11 @@ Candidate read_candidate(const JsonReader& reader) {
     Candidate c;
     c.name = reader.text("name");
     c.is_constant = reader.word("kind", {"effect", "constant"}) == "constant";
-    c.symbol = reader.text("symbol", "");
     c.unit = reader.text("unit");
     c.base = reader.number("base");
     c.lowest = reader.number("lowest");
     c.highest = reader.number("highest");
     c.prior = read_prior(reader.object("prior"));
-    c.description = reader.text("description", "");
-    c.source = reader.text("source", "");
     if (!(c.lowest <= c.base && c.base <= c.highest && c.lowest < c.highest))
         reader.fail(
             "base",

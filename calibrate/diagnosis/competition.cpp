@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <exception>
-#include <numeric>
 
 namespace taylorcal::calibrate {
 namespace {

@@ -33,8 +33,8 @@ std::vector<const PairRecord*> explaining_pairs(const ModeDiagnosis& mode);
 std::vector<std::size_t> enough_alone(const ModeDiagnosis& mode,
                                       const std::vector<const PairRecord*>& pairs);
 
-/// ln Z gained by the rival of all candidates: sizes that are off by a mean and a slope
-/// in velocity of their own for every shape, whatever the cause.
+/// ln Z gained by the rival of all candidates: sizes that are off by a mean, a slope
+/// and a curvature in velocity of their own for every shape, whatever the cause.
 double unlisted_gain(const DiagnosisProblem& problem, const ModeDiagnosis& mode);
 
 }  // namespace taylorcal::calibrate

@@ -2,7 +2,6 @@
 #include "calibrate/diagnosis/tail_probability.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace taylorcal::calibrate {
 namespace {

@@ -171,6 +171,7 @@ json to_json(const std::vector<NextExperiment>& experiments) {
     json list = json::array();
     for (const NextExperiment& e : experiments)
         list.push_back({{"shape", e.shot.shape},
+                        {"lot", e.shot.lot},
                         {"velocity_m_s", e.shot.velocity_m_s},
                         {"initial_diameter_mm", e.shot.initial_diameter_mm},
                         {"length_to_diameter", e.shot.length_to_diameter()},

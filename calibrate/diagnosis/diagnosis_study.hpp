@@ -5,7 +5,6 @@
 #include "calibrate/diagnosis/error_budget.hpp"
 #include "calibrate/posterior/posterior_file.hpp"
 
-#include <filesystem>
 #include <memory>
 #include <vector>
 

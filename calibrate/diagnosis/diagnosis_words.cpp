@@ -42,9 +42,8 @@ std::string misfit_words(const Contrast& contrast) {
 
 std::string adequacy_words(const Adequacy& adequacy, bool is_flagged, double level) {
     const std::string numbers = fmt::format(
-        "chi^2 {:.0f} on {} degrees of freedom, p = {:.2g}; patterns by shape and size p "
-        "= "
-        "{:.2g}; listed candidates p = {:.2g}; the wildest shot p = {:.2g}",
+        "chi^2 {:.0f} on {} degrees of freedom, p = {:.2g}; patterns by shape and size "
+        "p = {:.2g}; listed candidates p = {:.2g}; the wildest shot p = {:.2g}",
         adequacy.chi2, adequacy.n - adequacy.parameters, adequacy.p_chi2,
         adequacy.p_battery, adequacy.p_score, adequacy.p_bad_data);
     const bool fails = std::min({adequacy.p_chi2, adequacy.p_battery, adequacy.p_score,
@@ -110,10 +109,8 @@ std::string patternless_words(const DiagnosisProblem& problem, const Adequacy& a
         std::sqrt(adequacy.chi2 / static_cast<double>(adequacy.n - adequacy.parameters));
     return fmt::format(
         "The deviations are {:.1f} times their errors but follow no pattern by size, "
-        "shape "
-        "or velocity, and no single shot stands out: the stated errors may be too small, "
-        "or "
-        "shots of different metal may share a lot. ",
+        "shape or velocity, and no single shot stands out: the stated errors may be too "
+        "small, or shots of different metal may share a lot. ",
         excess);
 }
 
@@ -168,8 +165,8 @@ std::string finding_words(const DiagnosisProblem& problem, const Diagnosis& diag
         case VerdictKind::effect:
             if (effects.size() > 1)
                 return fmt::format(
-                    "Two causes together would explain it, one alone does "
-                    "not: {}. {}",
+                    "Two causes together would explain it, one alone does not: "
+                    "{}. {}",
                     fmt::join(effects, " and "), mixed);
             return fmt::format(
                 "It would be explained by {}{}. ", effects.front(),
@@ -188,10 +185,8 @@ std::string finding_words(const DiagnosisProblem& problem, const Diagnosis& diag
         case VerdictKind::outside_the_list:
             return fmt::format(
                 "No listed candidate, nor two together, explains it well enough: the "
-                "cause "
-                "is outside the list (smooth patterns without a cause gain ln Z "
-                "{:+.1f}). "
-                "{}{}{}",
+                "cause is outside the list (smooth patterns without a cause gain ln Z "
+                "{:+.1f}). {}{}{}",
                 mode.unlisted_gain, patternless_words(problem, mode.adequacy),
                 nearest_words(problem, mode), unexplained_words(mode.unexplained));
         case VerdictKind::bad_data:

@@ -1,5 +1,7 @@
 #include "calibrate/diagnosis/error_budget.hpp"
 
+#include "calibrate/likelihood/errors_of_shot.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -70,15 +72,20 @@ void add_fit_errors(const std::vector<Place>& places, const CorrectedPredictor& 
     }
 }
 
-/// What is left from the finer runs to the limit of fine cells, over the change from the
-/// base runs to them: (1/8^2)/(1/5^2 - 1/8^2) = 0.64 for 5 and 8 cells, 0.8 for 8 and 12.
+/// At most this is left from the finer runs to the limit of fine cells, over the change
+/// from the base runs to them: second order leaves (1/8^2)/(1/5^2 - 1/8^2) = 0.64 for
+/// cones, of 5 and 8 columns, and 0.26 to 0.45 for the other shapes, whose finer runs
+/// (`standard` cells) have 9 to 11.
 constexpr double left_to_limit = 0.7;
 
+/// Share of the resolution's pattern that each size may be off by of its own, as the
+/// pattern is known from few runs.
+constexpr double resolution_by_size = 0.5;
+
 /// Directions in which finer cells would move all shots of a shape: the whole pattern,
-/// and half of it by size, as the pattern is known from few runs.
+/// and part of it by size.
 void add_resolution(const CorrectedPredictor& predictor, const std::vector<Place>& places,
                     Eigen::MatrixXd& covariance) {
-    constexpr double by_size = 0.5;
     const auto n = static_cast<Eigen::Index>(places.size());
     Eigen::VectorXd pattern = Eigen::VectorXd::Zero(n);
     for (Eigen::Index i = 0; i < n; ++i) {
@@ -93,7 +100,8 @@ void add_resolution(const CorrectedPredictor& predictor, const std::vector<Place
             const Place& a = places[static_cast<std::size_t>(i)];
             const Place& b = places[static_cast<std::size_t>(j)];
             if (a.datum->shot.shape != b.datum->shot.shape) continue;
-            const double share = 1 + (a.output == b.output ? by_size * by_size : 0);
+            const double share =
+                1 + (a.output == b.output ? resolution_by_size * resolution_by_size : 0);
             covariance(i, j) += share * pattern(i) * pattern(j);
         }
 }
@@ -104,11 +112,6 @@ const SmoothFit* network_error_of(const ShapeSignature& shape) {
 
 const SmoothFit* resolution_of(const ShapeSignature& shape) {
     return shape.resolution ? &*shape.resolution : nullptr;
-}
-
-double velocity_sd(const Settings& settings, const Shot& shot) {
-    return shot.velocity_sd_m_s.value_or(settings.velocity_sd_relative *
-                                         shot.velocity_m_s);
 }
 
 }  // namespace
@@ -206,6 +209,7 @@ Eigen::MatrixXd covariance_of_new_shot(const CorrectedPredictor& predictor,
                                 *shape.resolution,
                                 predictor.inputs(shot, parameters.row(0).transpose())));
         covariance += area * pattern * pattern.transpose();
+        covariance.diagonal() += area * (resolution_by_size * pattern).cwiseAbs2();
     }
     return covariance;
 }

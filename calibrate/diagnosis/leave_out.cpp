@@ -1,6 +1,6 @@
 #include "calibrate/diagnosis/leave_out.hpp"
 
-#include "calibrate/diagnosis/velocity_thirds.hpp"
+#include "calibrate/measurements/velocity_thirds.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -31,7 +31,7 @@ double amplitude_variance(const Candidate& candidate) {
 std::vector<std::size_t> groups_to_leave_out(const DiagnosisProblem& problem) {
     std::map<std::string, std::size_t> shapes;
     for (const ShotLabel& shot : problem.shots) shapes.emplace(shot.shape, shapes.size());
-    const ThirdsOfVelocity thirds(problem.shots);
+    const ThirdsOfVelocity thirds(problem.shots, &ShotLabel::velocity_m_s);
     std::vector<std::size_t> groups;
     for (const MeasuredNumber& datum : problem.data) {
         const ShotLabel& shot = problem.shots[datum.shot];

@@ -67,7 +67,8 @@ struct ModeDiagnosis {
     Verdict verdict{};
 };
 
-/// Nine steps at one mode: fits the parameters from `start`, tests, screens and competes.
+/// The steps of the README at one mode: fits the parameters from `start`, tests, screens
+/// and competes.
 ModeDiagnosis diagnose_mode(const DiagnosisProblem& problem, const Eigen::VectorXd& start,
                             const NormalTable& table);
 

@@ -11,7 +11,7 @@ namespace taylorcal::calibrate {
 
 /// A shot that would tell explanations apart.
 struct NextExperiment {
-    Shot shot;  ///< shape, velocity, geometry and temperature only
+    Shot shot;  ///< shape, lot, velocity, geometry and temperature only
     double separation = 0;
     std::string words;
 };

@@ -1,15 +1,12 @@
 #include "calibrate/diagnosis/shape_signature.hpp"
 
+#include "calibrate/sampling/parameter_space.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 namespace taylorcal::calibrate {
 namespace {
-
-double place_in_prior(const Parameter& prior, double value) {
-    if (!prior.log_uniform) return (value - prior.lower) / (prior.upper - prior.lower);
-    return std::log(value / prior.lower) / std::log(prior.upper / prior.lower);
-}
 
 /// Rows gathered for one fit.
 class Rows {
@@ -61,7 +58,7 @@ Eigen::VectorXd signature_inputs(const Shot& shot, const Eigen::VectorXd& parame
         shot.initial_diameter_mm, shot.initial_temperature_K;
     for (Eigen::Index j = 0; j < parameters.size(); ++j)
         inputs(4 + j) =
-            place_in_prior(priors[static_cast<std::size_t>(j)], parameters(j));
+            place_in_range(priors[static_cast<std::size_t>(j)], parameters(j));
     return inputs;
 }
 

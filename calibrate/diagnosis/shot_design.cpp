@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include <Eigen/LU>
@@ -123,12 +122,26 @@ Eigen::VectorXd usual_sd(const DiagnosisStudy& study) {
     return (count.array() > 0).select(sum.array() / count.array().max(1), 0.01);
 }
 
+/// The lot with most fitted shots, of several the first by name.
+std::size_t lot_to_shoot(const DiagnosisStudy& study) {
+    const std::vector<std::string>& names = study.inputs().set.lots;
+    std::vector<std::size_t> shots(names.size());
+    for (const Datum& datum : study.data()) ++shots[datum.lot];
+    std::size_t best = 0;
+    for (std::size_t lot = 1; lot < names.size(); ++lot)
+        if (shots[lot] > shots[best] ||
+            (shots[lot] == shots[best] && names[lot] < names[best]))
+            best = lot;
+    return best;
+}
+
 class ShotJudge {
   public:
     ShotJudge(const DiagnosisStudy& study, const ModeDiagnosis& mode,
-              std::vector<Explanation> explanations)
+              std::vector<Explanation> explanations, std::size_t lot)
         : study_(study),
           mode_(mode),
+          lot_(lot),
           explanations_(std::move(explanations)),
           relative_sd_(usual_sd(study)) {
         Eigen::MatrixXd information = mode.base.slope.transpose() * mode.base.slope;
@@ -139,7 +152,7 @@ class ShotJudge {
         const CorrectedPredictor& predictor = study_.predictor();
         const auto& sizes = predictor.signature(shot.shape).sizes;
         const auto parameters = [&](const RowMatrix& units) {
-            return study_.inputs().space.lot_parameters(units, 0);
+            return study_.inputs().space.lot_parameters(units, lot_);
         };
         std::vector<Prediction> predictions;
         for (const Explanation& e : explanations_) {
@@ -182,6 +195,7 @@ class ShotJudge {
 
     const DiagnosisStudy& study_;
     const ModeDiagnosis& mode_;
+    std::size_t lot_;
     std::vector<Explanation> explanations_;
     Eigen::VectorXd relative_sd_;
     Eigen::MatrixXd open_;  // covariance of the parameters
@@ -199,14 +213,19 @@ std::vector<NextExperiment> design_shots(const DiagnosisStudy& study,
     names.reserve(explanations.size());
     for (const Explanation& e : explanations) names.push_back(e.name);
     if (names.back().empty()) return {};
-    const ShotJudge judge(study, mode, explanations);
+    const std::vector<std::string>& lots = study.inputs().set.lots;
+    const std::size_t lot = lot_to_shoot(study);
+    const std::string of_lot =
+        lots.size() > 1 ? " of lot " + in_words(lots[lot]) : std::string();
+    const ShotJudge judge(study, mode, explanations, lot);
     std::vector<NextExperiment> all;
-    for (const Shot& shot : possible_shots(study.predictor())) {
+    for (Shot& shot : possible_shots(study.predictor())) {
+        shot.lot = lots[lot];
         NextExperiment experiment{shot, judge(shot), ""};
         experiment.words = fmt::format(
-            "{} at {:.0f} m/s, {:.2f} mm diameter, L/D {:.2f}, {:.0f} K: tells {} apart "
-            "(mean squared distance {:.2g} in standard errors)",
-            in_words(shot.shape), shot.velocity_m_s, shot.initial_diameter_mm,
+            "{}{} at {:.0f} m/s, {:.2f} mm diameter, L/D {:.2f}, {:.0f} K: tells {} "
+            "apart (mean squared distance {:.2g} in standard errors)",
+            in_words(shot.shape), of_lot, shot.velocity_m_s, shot.initial_diameter_mm,
             shot.length_to_diameter(), shot.initial_temperature_K,
             fmt::join(names, " and "), experiment.separation);
         all.push_back(std::move(experiment));

@@ -1,6 +1,5 @@
 #include "calibrate/diagnosis/smooth_fit.hpp"
 
-#include <algorithm>
 #include <array>
 #include <limits>
 

@@ -52,7 +52,6 @@ struct SmoothFit {
     Eigen::VectorXd operator()(const Eigen::VectorXd& terms_at) const {
         return coefficients.transpose() * terms_at;
     }
-    Eigen::VectorXd left_out_sd() const { return noise.diagonal().cwiseSqrt(); }
 };
 
 /// `scaled`: a scaled point a row; `amplitudes`: empty, or one a row, then terms in the

@@ -1,18 +1,17 @@
 #include "calibrate/diagnosis/tail_probability.hpp"
 
+#include "calibrate/sampling/truncated_normal.hpp"
+
 #include <cmath>
 
 #include <boost/math/special_functions/beta.hpp>
-#include <boost/math/special_functions/erf.hpp>
 #include <boost/math/special_functions/gamma.hpp>
 
 namespace taylorcal::calibrate {
 
-double normal_tail(double z) { return 0.5 * std::erfc(z / std::sqrt(2.0)); }
+double normal_tail(double z) { return normal_cdf(-z); }
 
-double normal_quantile_of_tail(double p) {
-    return std::sqrt(2.0) * boost::math::erfc_inv(2 * p);
-}
+double normal_quantile_of_tail(double p) { return -normal_quantile(p); }
 
 double chi2_tail(double x, double degrees) {
     if (!(x > 0) || !(degrees > 0)) return 1;

@@ -1,7 +1,7 @@
 #include "calibrate/diagnosis/unexplained.hpp"
 
 #include "calibrate/diagnosis/tail_probability.hpp"
-#include "calibrate/diagnosis/velocity_thirds.hpp"
+#include "calibrate/measurements/velocity_thirds.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -73,7 +73,7 @@ double rank_correlation(const std::vector<double>& x, const std::vector<double>&
 
 Unexplained describe_unexplained(const DiagnosisProblem& problem,
                                  const Eigen::VectorXd& residual) {
-    const ThirdsOfVelocity thirds(problem.shots);
+    const ThirdsOfVelocity thirds(problem.shots, &ShotLabel::velocity_m_s);
     std::map<std::tuple<std::string, std::string, std::size_t>, Unexplained::Cell> cells;
     for (std::size_t i = 0; i < problem.data.size(); ++i) {
         const ShotLabel& shot = problem.shots[problem.data[i].shot];

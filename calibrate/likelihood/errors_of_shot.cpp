@@ -18,6 +18,11 @@ Eigen::VectorXd sizes_at(const Predictor& predictor, const Datum& datum,
 
 }  // namespace
 
+double velocity_sd(const Settings& settings, const Shot& shot) {
+    return shot.velocity_sd_m_s.value_or(settings.velocity_sd_relative *
+                                         shot.velocity_m_s);
+}
+
 Eigen::VectorXd velocity_slope(const Predictor& predictor, const Datum& datum,
                                const Eigen::VectorXd& parameters) {
     const double velocity = datum.shot.velocity_m_s;
@@ -34,8 +39,7 @@ Eigen::MatrixXd fixed_covariance(const Settings& settings, const Predictor& pred
                                  const Datum& datum, const Eigen::VectorXd& parameters) {
     const Eigen::Index n = datum.measured_mm.size();
     if (settings.likelihood == LikelihoodForm::paper) return Eigen::MatrixXd::Zero(n, n);
-    const double sd_v = datum.shot.velocity_sd_m_s.value_or(
-        settings.velocity_sd_relative * datum.shot.velocity_m_s);
+    const double sd_v = velocity_sd(settings, datum.shot);
     const Eigen::VectorXd slope = velocity_slope(predictor, datum, parameters);
     const Eigen::MatrixXd network = predictor.error_covariance(datum.shot, parameters);
     Eigen::MatrixXd covariance = slope * slope.transpose() * (sd_v * sd_v);

@@ -8,6 +8,9 @@
 
 namespace taylorcal::calibrate {
 
+/// Standard deviation of a shot's velocity [m/s]: the table's, else the settings' share.
+double velocity_sd(const Settings& settings, const Shot& shot);
+
 /// df/dv [mm/(m/s)] of the datum's sizes by a central difference of 1 % of the velocity,
 /// one-sided at the end of the predictor's range. `parameters`: plain, of the shot's lot.
 Eigen::VectorXd velocity_slope(const Predictor& predictor, const Datum& datum,

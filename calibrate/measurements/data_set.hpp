@@ -2,7 +2,6 @@
 
 #include "calibrate/measurements/shot.hpp"
 
-#include <algorithm>
 #include <string>
 #include <vector>
 

@@ -6,7 +6,6 @@
 #include "calibrate/sampling/log_sum.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace taylorcal::calibrate {
 namespace {

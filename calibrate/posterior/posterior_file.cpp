@@ -5,7 +5,6 @@
 #include "common/hdf5_file.hpp"
 #include "common/provenance.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 

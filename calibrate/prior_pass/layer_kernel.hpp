@@ -2,8 +2,6 @@
 
 #include "common/lanes.hpp"
 
-#include <algorithm>
-#include <bit>
 #include <cstddef>
 
 namespace taylorcal::calibrate {

@@ -2,6 +2,7 @@
 
 #include "calibrate/sampling/log_sum.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace taylorcal::calibrate {

@@ -3,7 +3,7 @@
 #include "calibrate/prior_pass/layer_kernel.hpp"
 #include "common/errors.hpp"
 
-#include <cmath>
+#include <algorithm>
 #include <numbers>
 
 namespace taylorcal::calibrate {

@@ -7,7 +7,6 @@
 #include "calibrate/sampling/draw_pool.hpp"
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -43,7 +42,7 @@ class RunningResult {
     WeightedDraws pool() const { return pool_.weighted(); }
     /// Densities over the ranges, smoothed as far as the number of draws asks for.
     Maps maps() const;
-    /// At 1e3, 1e4 ... draws (at the end of the block that holds it) and now.
+    /// At 1e4, 1e5 ... draws (at the end of the block that holds it) and now.
     std::vector<Progression> convergence() const;
 
     /// Names and contents of all sums, for saving and loading.

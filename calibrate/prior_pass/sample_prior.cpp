@@ -105,8 +105,7 @@ PlainResult sample_prior(const Settings& settings, const DataSet& set,
                                                   static_cast<double>(result.draws())};
     spdlog::info(
         "{:.3g} plain draws in {:.1f} s, {:.3g} a second and thread, {:.2f} of {} "
-        "rows each; "
-        "dropped draws hold less than {:.1e} of the posterior",
+        "rows each; dropped draws hold less than {:.1e} of the posterior",
         static_cast<double>(settings.draws - resumed), seconds,
         static_cast<double>(settings.draws - resumed) / seconds / run.threads,
         plain.dropping.rows_per_draw, network.rows(), plain.dropping.mass_bound);

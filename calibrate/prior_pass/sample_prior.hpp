@@ -4,7 +4,6 @@
 #include "calibrate/prior_pass/run_plain_pass.hpp"
 #include "calibrate/sampling/sample_posterior.hpp"
 
-#include <string>
 #include <vector>
 
 namespace taylorcal::calibrate {

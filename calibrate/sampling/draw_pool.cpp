@@ -1,7 +1,6 @@
 #include "calibrate/sampling/draw_pool.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 
 namespace taylorcal::calibrate {

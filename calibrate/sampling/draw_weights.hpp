@@ -3,8 +3,6 @@
 #include "calibrate/likelihood/spread_levels.hpp"
 #include "calibrate/sampling/draw_table.hpp"
 
-#include <vector>
-
 #include <Eigen/Core>
 
 namespace taylorcal::calibrate {

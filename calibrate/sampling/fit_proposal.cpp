@@ -3,7 +3,6 @@
 #include "calibrate/sampling/gaussian_mixture.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include <Eigen/Cholesky>
 

@@ -24,7 +24,8 @@ struct GaussianMixture {
 
 /// Fits by expectation maximisation from starts spread over the points (each next start
 /// drawn away from the ones before); parts that lose their points are dropped. Weights
-/// sum to one. `pick(i)` gives uniform numbers. A point of no dimensions yields one part.
+/// sum to one. `picks`: uniform numbers, used in turn. A point of no dimensions yields
+/// one part.
 GaussianMixture fit_gaussian_mixture(const RowMatrix& points,
                                      const Eigen::VectorXd& weights, std::size_t parts,
                                      const std::vector<double>& picks);

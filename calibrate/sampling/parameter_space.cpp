@@ -14,6 +14,13 @@ TruncatedNormal normal_prior(const Parameter& parameter) {
 
 }  // namespace
 
+double place_in_range(const Parameter& parameter, double value) {
+    if (!parameter.log_uniform)
+        return (value - parameter.lower) / (parameter.upper - parameter.lower);
+    return std::log(value / parameter.lower) /
+           std::log(parameter.upper / parameter.lower);
+}
+
 ParameterSpace::ParameterSpace(std::vector<Parameter> parameters,
                                std::vector<std::string> lots)
     : parameters_(std::move(parameters)), lots_(std::move(lots)) {
@@ -51,8 +58,7 @@ double ParameterSpace::value(std::size_t i, double unit) const {
 double ParameterSpace::unit(std::size_t i, double value) const {
     const Parameter& p = parameter(i);
     if (p.normal_scale) return normal_prior(p).cdf(value);
-    if (!p.log_uniform) return (value - p.lower) / (p.upper - p.lower);
-    return std::log(value / p.lower) / std::log(p.upper / p.lower);
+    return place_in_range(p, value);
 }
 
 Eigen::VectorXd ParameterSpace::values(const Eigen::VectorXd& unit) const {

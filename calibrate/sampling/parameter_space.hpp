@@ -10,6 +10,10 @@
 
 namespace taylorcal::calibrate {
 
+/// Where a plain value lies from lower (0) to upper (1), in the logarithm if the prior is
+/// uniform there; not the share of a normal prior.
+double place_in_range(const Parameter& parameter, double value);
+
 /// Maps between the unit cube, on which the prior is uniform, and plain values. A point
 /// of the cube holds the shared parameters first, then each lot's own ones, lot by lot.
 class ParameterSpace {
@@ -20,7 +24,6 @@ class ParameterSpace {
     std::size_t per_lot_count() const { return per_lot_.size(); }
     std::size_t lot_count() const { return lots_.size(); }
     std::size_t size() const { return shared_.size() + lots_.size() * per_lot_.size(); }
-    const std::vector<std::string>& lots() const { return lots_; }
     const std::vector<Parameter>& parameters() const { return parameters_; }
 
     /// Names of the coordinates, e.g. "hardening_coefficient", "rho...[house]".

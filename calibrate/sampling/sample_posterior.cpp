@@ -5,6 +5,7 @@
 #include "calibrate/sampling/sampling_state.hpp"
 #include "common/errors.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 

@@ -44,14 +44,14 @@ enum class DrawsFrom { adapted, prior };
 /// sequence.
 enum class DrawSequence { random, sobol };
 
-/// The configuration of `calibrate sample` and `calibrate compare` (calibrate.json).
+/// The configuration of all subcommands of `calibrate` (calibrate.json).
 struct Settings {
     std::vector<Parameter> parameters;
     std::vector<std::string> fit_sizes;
     LikelihoodForm likelihood = LikelihoodForm::full;
     double velocity_sd_relative = 0.01;
     std::optional<UnexplainedSpread> unexplained_spread;
-    NetworkErrors network_errors = NetworkErrors::independent;
+    NetworkErrors network_errors = NetworkErrors::common;
     DrawsFrom draws_from = DrawsFrom::adapted;
     DrawSequence draw_sequence = DrawSequence::random;
     std::uint64_t draws = 20000;       ///< of the shared parameters

@@ -3,7 +3,6 @@
 #include "emulator/training/quality.hpp"
 
 #include <iostream>
-#include <numeric>
 
 #include <spdlog/spdlog.h>
 

@@ -4,7 +4,6 @@
 #include "common/json_reader.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 
 #include <fmt/core.h>

@@ -5,7 +5,6 @@
 #include "emulator/training/split.hpp"
 #include "emulator/training/train_config.hpp"
 
-#include <filesystem>
 #include <vector>
 
 #include <Eigen/Core>

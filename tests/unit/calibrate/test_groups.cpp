@@ -1,4 +1,5 @@
 #include "calibrate/comparison/groups.hpp"
+#include "calibrate/diagnosis/unexplained.hpp"
 #include "tests/unit/calibrate/toy_models.hpp"
 
 #include <catch2/catch.hpp>
@@ -32,7 +33,9 @@ std::vector<ResidualGroup> groups_of(const std::vector<std::string>& shapes, dou
         shot.residual = 0.1 * shot.whitened;
         shots.push_back(shot);
     }
-    return group_residuals(shots, set.sizes);
+    const auto n = std::ssize(shots);
+    const Eigen::MatrixXd independent = Eigen::MatrixXd::Identity(n, n);
+    return group_residuals(shots, set.sizes, {independent, independent});
 }
 
 ResidualGroup find(const std::vector<ResidualGroup>& groups, const std::string& key) {
@@ -63,4 +66,45 @@ TEST_CASE("the one shape of a table is not repeated in every group", "[compariso
     const ResidualGroup odd = find(groups, "uniform_cylinder x final_length_mm x high");
     CHECK(odd.shape.empty());
     CHECK_THAT(odd.words, Catch::Matchers::StartsWith("final length predicted"));
+}
+
+TEST_CASE("comparison and diagnosis cut the velocities alike", "[comparison]") {
+    std::vector<Shot> table;
+    struct NoModel final : DiagnosisModel {
+        taylorcal::RowMatrix predict(const taylorcal::RowMatrix&) const override {
+            return {};
+        }
+        taylorcal::RowMatrix shift(std::size_t, const taylorcal::RowMatrix&,
+                                   const Eigen::VectorXd&) const override {
+            return {};
+        }
+        Eigen::MatrixXd shift_covariance(std::size_t) const override { return {}; }
+        RunRange run_range(std::size_t) const override { return {}; }
+        std::string why_unseen(std::size_t) const override { return ""; }
+    };
+    const NoModel model;
+    DiagnosisProblem problem{model};
+    for (int i = 0; i < 10; ++i) {
+        table.push_back(toys::shot(fmt::format("s{}", i), "lot", 100 + 10.0 * i,
+                                   {{"final_length_mm", 20, 0.1}}));
+        problem.shots.push_back(
+            {table.back().id, table.back().shape, "lot", table.back().velocity_m_s});
+        problem.data.push_back({problem.shots.size() - 1, "final_length_mm", 20});
+    }
+    const DataSet set = make_data_set(table, {"final_length_mm"});
+    std::vector<ShotComparison> shots;
+    for (const Datum& datum : set.data) {
+        ShotComparison shot;
+        shot.datum = &datum;
+        shot.whitened = shot.standardised = shot.residual = Eigen::VectorXd::Zero(1);
+        shots.push_back(shot);
+    }
+    const Eigen::MatrixXd independent = Eigen::MatrixXd::Identity(10, 10);
+    const auto groups = group_residuals(shots, set.sizes, {independent, independent});
+    const Unexplained unexplained =
+        describe_unexplained(problem, Eigen::VectorXd::Zero(10));
+    REQUIRE(unexplained.pattern.size() == 3);
+    for (const Unexplained::Cell& cell : unexplained.pattern)
+        CHECK(find(groups, cell.velocity_third).n == cell.n);
+    CHECK(find(groups, "low").n == 3);
 }

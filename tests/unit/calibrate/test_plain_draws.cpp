@@ -33,6 +33,7 @@ struct LinearProblem {
         settings.fit_sizes = {"final_length_mm", "impact_diameter_mm", "head_length_mm"};
         settings.velocity_sd_relative = 0;
         settings.draws_from = DrawsFrom::prior;
+        settings.network_errors = NetworkErrors::independent;
         settings.draws = 400000;
         settings.kept_draws = 500;
         weights << -2, 3, 1, 0.2, 1.5, -1, 2, 0.4, 0.1, 0.5, -0.6, 2.5;
@@ -317,6 +318,7 @@ TEST_CASE("two modes have the shares of their densities", "[plain]") {
     settings.fit_sizes = {"final_length_mm", "impact_diameter_mm"};
     settings.velocity_sd_relative = 0;
     settings.draws_from = DrawsFrom::prior;
+    settings.network_errors = NetworkErrors::independent;
     settings.draws = 300000;
     settings.kept_draws = 1000;
     emulator::Layer hidden{Eigen::MatrixXf(2, 2), Eigen::VectorXf(2)};

@@ -63,6 +63,7 @@ TEST_CASE("the unexplained spread finds what the errors leave out", "[spread]") 
 TEST_CASE("the paper's sigma is the spread of all relative deviations", "[spread]") {
     Settings settings;
     settings.likelihood = LikelihoodForm::paper;
+    settings.network_errors = NetworkErrors::independent;
     const Posterior posterior = calibrate_line(0.013, settings);
     const double sigma = std::hypot(0.003, 0.013);
     CHECK(mean_spread(posterior, spread_levels(settings)) == Approx(sigma).margin(0.003));

@@ -1,11 +1,13 @@
 #include "calibrate/diagnosis/candidates_file.hpp"
 #include "calibrate/diagnosis/diagnosis_study.hpp"
+#include "calibrate/diagnosis/shot_design.hpp"
 #include "common/atomic_file.hpp"
 #include "common/errors.hpp"
 #include "common/random.hpp"
 #include "tests/unit/calibrate/table_file.hpp"
 #include "tests/unit/calibrate/toy_models.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -133,23 +135,39 @@ struct ToyStudy {
         posterior.maxima_units = RowMatrix::Constant(1, 1, 0.4);
         posterior.units = RowMatrix::Constant(3, 1, 0.38);
     }
-    Diagnosis diagnose(const std::vector<Row>& rows,
-                       nlohmann::json* json = nullptr) const {
+    /// The shots in another order, in lots of their own strength.
+    void use(const std::vector<Shot>& shots) {
+        settings.parameters.front().per_lot = true;
+        set = make_data_set(shots, settings.fit_sizes);
+        const auto lots = std::ssize(set.lots);
+        posterior.maxima_units = RowMatrix::Constant(1, lots, 0.4);
+        posterior.units = RowMatrix::Constant(3, lots, 0.38);
+    }
+    /// Calls `work` with the study; `finer`: what finer runs change [mm], empty: none.
+    void with_study(const std::vector<Row>& rows, const auto& work,
+                    const Eigen::VectorXd& finer = {}) const {
         const ParameterSpace space(settings.parameters, set.lots);
         const toys::TemporaryFile file("signatures.h5");
         write_runs(file.path(), rows);
         const PairedRuns runs = read_paired_runs(file.path(), settings, candidates);
-        const DiagnosisStudy study({settings, set, space, network, posterior, candidates,
-                                    runs,
-                                    std::vector<Eigen::VectorXd>(runs.bases.size())});
-        const Diagnosis found = calibrate::diagnose(
-            [&](const Eigen::VectorXd& unit) { return study.problem_at(unit); },
-            study.starts());
-        if (json) {
+        work(DiagnosisStudy({settings, set, space, network, posterior, candidates, runs,
+                             std::vector<Eigen::VectorXd>(runs.bases.size(), finer)}));
+    }
+    Diagnosis diagnose(const std::vector<Row>& rows,
+                       nlohmann::json* json = nullptr) const {
+        Diagnosis found;
+        with_study(rows, [&](const DiagnosisStudy& study) {
+            found = calibrate::diagnose(
+                [&](const Eigen::VectorXd& unit) { return study.problem_at(unit); },
+                study.starts());
+            if (!json) return;
             const DiagnosisProblem problem =
                 study.problem_at(found.modes.front().base.unit);
-            *json = to_json(problem, found, study.facts(problem, found));
-        }
+            DiagnosisFacts facts = study.facts(problem, found);
+            facts.next_experiments = design_shots(study, problem, found.modes.front(),
+                                                  found.verdict.effects, 5);
+            *json = to_json(problem, found, facts);
+        });
         return found;
     }
 };
@@ -188,6 +206,64 @@ TEST_CASE("the network's own error is no physics", "[study]") {
     for (std::uint64_t seed = 1; seed <= 20; ++seed)
         flagged += ToyStudy(0, seed).diagnose(paired_rows()).verdict.is_flagged;
     CHECK(flagged <= 3);
+}
+
+TEST_CASE("the next shots do not depend on the order of the table", "[study]") {
+    std::vector<Shot> shots;
+    for (int i = 0; i < 12; ++i) {
+        const double velocity = 105 + 8.0 * i;
+        const bool in_few = i % 3 == 0;
+        const Eigen::Vector2d exact = toy_sizes(velocity, in_few ? 0.8 : 1.2, 0.15, 0);
+        shots.push_back(toys::shot(fmt::format("s{}", i), in_few ? "few" : "old_stock",
+                                   velocity,
+                                   {{"final_length_mm", exact(0), 0.03},
+                                    {"impact_diameter_mm", exact(1), 0.03}}));
+        shots.back().velocity_sd_m_s = 0.2;
+    }
+    std::vector<json> next;
+    for (int turn = 0; turn < 2; ++turn) {
+        ToyStudy study(0);
+        study.use(shots);
+        json written;
+        study.diagnose(paired_rows(), &written);
+        next.push_back(written["next_experiments"]);
+        std::reverse(shots.begin(), shots.end());
+    }
+    REQUIRE(next[0].size() == 5);
+    for (std::size_t i = 0; i < 5; ++i) {
+        CHECK(next[0][i]["velocity_m_s"] == next[1][i]["velocity_m_s"]);
+        CHECK(next[0][i]["separation"].get<double>() ==
+              Approx(next[1][i]["separation"].get<double>()).epsilon(1e-3));
+        CHECK(next[0][i]["lot"] == "old_stock");
+        CHECK_THAT(next[0][i]["words"].get<std::string>(),
+                   Contains("uniform cylinder of lot old stock at"));
+    }
+}
+
+TEST_CASE("a new shot's resolution errs as that of the shots of the table", "[study]") {
+    const ToyStudy toy(0);
+    const ParameterSpace space(toy.settings.parameters, toy.set.lots);
+    const Eigen::VectorXd unit = Eigen::VectorXd::Constant(1, 0.4);
+    std::vector<Eigen::MatrixXd> of_table, of_new_shot;
+    const Eigen::Vector2d change(-0.2, 0.1);
+    // The other errors are the same with half the change.
+    for (const double share : {1.0, 0.5})
+        toy.with_study(
+            paired_rows(),
+            [&](const DiagnosisStudy& study) {
+                const Datum& datum = study.data().front();
+                const CorrectedModel model(study.predictor(), space, {&datum}, unit);
+                of_table.push_back(
+                    error_budget(study.predictor(), model, toy.settings).resolution);
+                of_new_shot.push_back(covariance_of_new_shot(
+                    study.predictor(), toy.settings, datum.shot,
+                    space.lot_parameters(unit.transpose(), 0), Eigen::Vector2d::Zero()));
+            },
+            share * change);
+    const Eigen::MatrixXd expected = of_table[0] - of_table[1];
+    const Eigen::MatrixXd found = of_new_shot[0] - of_new_shot[1];
+    REQUIRE(expected.norm() > 1e-3);
+    CHECK((found - expected).norm() < 1e-6 * expected.norm());
 }
 
 TEST_CASE("a candidate without runs could not be seen", "[study]") {

@@ -153,6 +153,10 @@ class Run {
         if (body_.ticks() >= numerics.step_limit) {
             return limit("step_limit", static_cast<double>(numerics.step_limit));
         }
+        if (body_.point_updates() >= numerics.point_update_limit) {
+            return limit("point_update_limit",
+                         static_cast<double>(numerics.point_update_limit));
+        }
         if (thread_cpu_seconds() - start_ > numerics.cpu_limit_s) {
             return end(Status::over_cpu_limit,
                        fmt::format("cpu_limit_s of {:g} reached at {:.4g} us",

@@ -73,6 +73,18 @@ TEST_CASE("a run that reaches a limit says so", "[run]") {
     CHECK(result.steps == 20);
 }
 
+TEST_CASE("a run ends when all its points' steps together are too many", "[run]") {
+    impact::ImpactCase impact_case = coarse_case();
+    impact_case.run_until_s = 3e-6;
+    const std::int64_t whole = sph::simulate(impact_case).grain_updates;
+    impact_case.numerics.point_update_limit = whole / 3;
+    const impact::ImpactResult result = sph::simulate(impact_case);
+    CHECK(result.status == impact::Status::not_stopped);
+    CHECK(result.reason.find("point_update_limit") != std::string::npos);
+    CHECK(result.grain_updates >= whole / 3);
+    CHECK(result.grain_updates < whole / 2);
+}
+
 TEST_CASE("a run that blows up fails with a reason and does not throw", "[run]") {
     impact::ImpactCase impact_case = coarse_case();
     impact_case.numerics.cfl = 3;

@@ -4,6 +4,7 @@
 #include "common/program_code.hpp"
 #include "common/progress.hpp"
 #include "common/sha256.hpp"
+#include "common/simd.hpp"
 #include "solver/commands/journal.hpp"
 #include "solver/commands/run_table.hpp"
 #include "solver/commands/solver_provenance.hpp"
@@ -52,8 +53,9 @@ nlohmann::json journal_header(const Design& design, const nlohmann::json& config
                               design.shape[row]);
         for (const double value : values) inputs += fmt::format(" {}", value);
     }
-    return {{"schema", "taylorcal/journal/1"},
+    return {{"schema", "taylorcal/journal/2"},
             {"solver_code", program_code()},
+            {"simd", "TAYLORCAL_SIMD=" + simd::name(simd::variant())},
             {"configuration_digest", sha256(configuration.dump())},
             {"design_digest", sha256(inputs)}};
 }

@@ -83,4 +83,18 @@ void set_parameter(Parameters& parameters, std::string_view name, double value) 
     parameters.*info.member = value;
 }
 
+void check_melting_temperature(const Parameters& parameters) {
+    require(parameters.jc_melting_temperature > parameters.reference_temperature,
+            fmt::format("jc_melting_temperature = {:.10g} K is not above "
+                        "reference_temperature = {:.10g} K, from which metal softens. "
+                        "Raise the first or lower the second.",
+                        parameters.jc_melting_temperature,
+                        parameters.reference_temperature));
+}
+
+void check_strength(const Parameters& parameters) {
+    if (parameters.strength == StrengthModel::johnson_cook)
+        check_melting_temperature(parameters);
+}
+
 }  // namespace taylorcal::material

@@ -72,6 +72,7 @@ class Run {
     impact::ImpactResult compute() {
         impact::ImpactResult result;
         monitor_.record();
+        if (case_.snapshot_interval_s > 0) take_snapshot();
         while (!finished(result)) advance();
         monitor_.record();
         if (profiles_.empty())
@@ -98,6 +99,7 @@ class Run {
   private:
     void advance() {
         if (case_.run_until_s > 0) body_.shorten_cycle(case_.run_until_s - body_.time());
+        body_.shorten_cycle(next_snapshot_ - body_.time());
         body_.cycle();
         const double velocity = monitor_.rear_velocity();
         if (!stop_time_ && velocity >= 0) {
@@ -108,14 +110,17 @@ class Run {
             monitor_.record();
             next_record_ = body_.time() + record_interval_;
         }
-        if (case_.snapshot_interval_s > 0 && body_.time() >= next_snapshot_) {
-            snapshots_.push_back(monitor_.fields());
-            next_snapshot_ += case_.snapshot_interval_s;
-        }
+        if (body_.time() >= next_snapshot_ * (1 - 1e-9)) take_snapshot();
         if (stop_time_ && case_.run_until_s <= 0 && body_.time() >= next_profile_) {
             profiles_.add(monitor_.outline().measure(body_.particles()));
             next_profile_ = body_.time() + ringing_period_ / samples_per_ringing_period;
         }
+    }
+
+    void take_snapshot() {
+        snapshots_.push_back(monitor_.fields());
+        const auto taken = static_cast<double>(snapshots_.size());
+        next_snapshot_ = taken * case_.snapshot_interval_s;
     }
 
     /// Decides whether the run is over, and how it went.
@@ -185,7 +190,7 @@ class Run {
     double record_interval_ = 0;
     double next_record_ = 0;
     double next_profile_ = 0;
-    double next_snapshot_ = 0;
+    double next_snapshot_ = INFINITY;
     std::vector<impact::Fields> snapshots_;
     double ringing_period_ = 0;
     std::optional<double> stop_time_;

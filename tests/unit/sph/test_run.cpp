@@ -85,6 +85,18 @@ TEST_CASE("a run ends when all its points' steps together are too many", "[run]"
     CHECK(result.grain_updates < whole / 2);
 }
 
+TEST_CASE("snapshots are of the start, of every interval and of the end", "[run]") {
+    impact::ImpactCase impact_case = coarse_case();
+    impact_case.snapshot_interval_s = 1e-6;
+    impact_case.run_until_s = 2.5e-6;
+    const impact::ImpactResult result = sph::simulate(impact_case);
+    std::vector<double> times;
+    for (const impact::Fields& fields : result.snapshots) times.push_back(fields.time_us);
+    CHECK_THAT(times,
+               Catch::Matchers::Approx(std::vector<double>{0, 1, 2, 2.5}).margin(1e-9));
+    CHECK(result.snapshots.front().z_mm == result.snapshots.front().initial_z_mm);
+}
+
 TEST_CASE("a run that blows up fails with a reason and does not throw", "[run]") {
     impact::ImpactCase impact_case = coarse_case();
     impact_case.numerics.cfl = 3;

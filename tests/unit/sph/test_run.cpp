@@ -64,6 +64,16 @@ TEST_CASE("a dislocation run stops, closes its energy and repeats itself", "[run
           Approx(first.sizes.final_length_mm).epsilon(0.01));
 }
 
+TEST_CASE("the history's foot is the one that is measured", "[run]") {
+    impact::ImpactCase impact_case = coarse_case();
+    impact_case.shape = specimen::make_shape(specimen::reduced_head_3mm);
+    impact_case.velocity_m_s = 180;  // the head collapses, its shoulder sinks to the foot
+    const impact::ImpactResult result = sph::simulate(impact_case);
+    REQUIRE(result.status == impact::Status::stopped);
+    CHECK(2 * result.history.back().foot_radius_mm ==
+          Approx(result.sizes.impact_diameter_mm).epsilon(5e-3));
+}
+
 TEST_CASE("a run that reaches a limit says so", "[run]") {
     impact::ImpactCase impact_case = coarse_case();
     impact_case.numerics.step_limit = 20;

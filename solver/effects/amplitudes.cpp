@@ -67,8 +67,7 @@ void apply_effects(const Amplitudes& amplitudes, impact::ImpactCase& impact_case
 }
 
 std::string prior_name(PriorKind kind) {
-    if (kind == PriorKind::half_normal) return "half_normal";
-    return kind == PriorKind::normal ? "normal" : "uniform";
+    return kind == PriorKind::normal ? "normal" : "half_normal";
 }
 
 std::string acts_on_name(ActsOn acts_on) {

@@ -2,7 +2,7 @@
 
 #include "common/atomic_file.hpp"
 #include "common/errors.hpp"
-#include "common/json_reader.hpp"
+#include "common/nearest_word.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -135,10 +135,9 @@ bool CsvTable::has(const std::string& column) const {
 std::size_t CsvTable::index(const std::string& column) const {
     const auto found = std::ranges::find(columns_, column);
     if (found == columns_.end()) {
-        const std::string near = nearest_word(column, columns_);
         throw InputError(fmt::format(
             "{}: column \"{}\" is missing{}. The columns are: {}.", path_.string(),
-            column, near.empty() ? "" : fmt::format(" (is \"{}\" meant?)", near),
+            column, nearest_hint(column, columns_, " (is \"", "\" meant?)"),
             fmt::join(columns_, ", ")));
     }
     return static_cast<std::size_t>(found - columns_.begin());

@@ -2,6 +2,7 @@
 
 #include "common/atomic_file.hpp"
 #include "common/errors.hpp"
+#include "common/nearest_word.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -159,11 +160,9 @@ std::string JsonReader::word(std::string_view key,
                              const std::vector<std::string>& allowed) const {
     std::string value = text(key);
     if (std::ranges::find(allowed, value) == allowed.end()) {
-        const std::string near = nearest_word(value, allowed);
-        fail(key,
-             fmt::format("= \"{}\" (expected one of: {}).{}", value,
-                         fmt::join(allowed, ", "),
-                         near.empty() ? "" : fmt::format(" Is \"{}\" meant?", near)));
+        fail(key, fmt::format("= \"{}\" (expected one of: {}).{}", value,
+                              fmt::join(allowed, ", "),
+                              nearest_hint(value, allowed, " Is \"", "\" meant?")));
     }
     return value;
 }
@@ -225,9 +224,8 @@ void JsonReader::only(std::initializer_list<std::string_view> known) const {
 void JsonReader::only(const std::vector<std::string>& known) const {
     for (const std::string& key : keys()) {
         if (std::ranges::find(known, key) != known.end()) continue;
-        const std::string near = nearest_word(key, known);
         fail(key, fmt::format("is not a known key.{} Known here: {}.",
-                              near.empty() ? "" : fmt::format(" Is \"{}\" meant?", near),
+                              nearest_hint(key, known, " Is \"", "\" meant?"),
                               fmt::join(known, ", ")));
     }
 }

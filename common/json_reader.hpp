@@ -62,9 +62,4 @@ class JsonReader {
     std::string key_path_;
 };
 
-/// The member of `candidates` nearest to `text` by edit distance, empty when none is
-/// near.
-std::string nearest_word(std::string_view text,
-                         const std::vector<std::string>& candidates);
-
 }  // namespace taylorcal

@@ -1,4 +1,4 @@
-#include "common/json_reader.hpp"
+#include "common/nearest_word.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -23,8 +23,6 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     return previous.back();
 }
 
-}  // namespace
-
 std::string nearest_word(std::string_view text,
                          const std::vector<std::string>& candidates) {
     std::string best;
@@ -38,6 +36,15 @@ std::string nearest_word(std::string_view text,
         }
     }
     return best;
+}
+
+}  // namespace
+
+std::string nearest_hint(std::string_view text,
+                         const std::vector<std::string>& candidates,
+                         std::string_view before, std::string_view after) {
+    const std::string near = nearest_word(text, candidates);
+    return near.empty() ? near : std::string(before) + near + std::string(after);
 }
 
 }  // namespace taylorcal

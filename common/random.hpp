@@ -20,7 +20,6 @@ class RandomStream {
     double uniform(std::uint64_t index) const;
     /// Standard normal (Box-Muller on one counter).
     double normal(std::uint64_t index) const;
-    std::uint64_t seed() const { return seed_; }
 
   private:
     std::uint64_t seed_;

@@ -3,7 +3,7 @@
 #include "calibrate/measurements/vocabulary.hpp"
 #include "common/csv_table.hpp"
 #include "common/errors.hpp"
-#include "common/json_reader.hpp"
+#include "common/nearest_word.hpp"
 #include "common/specimen_names.hpp"
 
 #include <algorithm>
@@ -17,8 +17,7 @@ namespace taylorcal::calibrate {
 namespace {
 
 std::string hint(const std::string& word, const std::vector<std::string>& candidates) {
-    const std::string near = nearest_word(word, candidates);
-    return near.empty() ? std::string() : fmt::format(" Did you mean \"{}\"?", near);
+    return nearest_hint(word, candidates, " Did you mean \"", "\"?");
 }
 
 void check_columns(const CsvTable& table, const std::string& file) {

@@ -2,6 +2,7 @@
 
 #include "calibrate/measurements/vocabulary.hpp"
 #include "common/json_reader.hpp"
+#include "common/nearest_word.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -86,11 +87,10 @@ std::vector<std::string> read_fit_sizes(const JsonReader& reader) {
     const auto& known = size_columns();
     for (std::size_t i = 0; i < sizes.size(); ++i) {
         if (std::find(known.begin(), known.end(), sizes[i]) == known.end()) {
-            const std::string near = nearest_word(sizes[i], known);
             reader.fail(
                 "fit_sizes",
                 fmt::format("holds the unknown size \"{}\".{}", sizes[i],
-                            near.empty() ? "" : " Did you mean \"" + near + "\"?"));
+                            nearest_hint(sizes[i], known, " Did you mean \"", "\"?")));
         }
         if (std::find(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(i),
                       sizes[i]) != sizes.begin() + static_cast<std::ptrdiff_t>(i))

@@ -1,7 +1,7 @@
 #include "emulator/inference/emulator.hpp"
 
 #include "common/errors.hpp"
-#include "common/json_reader.hpp"
+#include "common/nearest_word.hpp"
 #include "emulator/inference/dense.hpp"
 
 #include <algorithm>
@@ -28,10 +28,9 @@ int index_of(const std::string& name, const std::vector<std::string>& names,
     if (found == names.end()) {
         std::string list;
         for (const std::string& known : names) list += (list.empty() ? "" : ", ") + known;
-        const std::string near = nearest_word(name, names);
-        throw InputError(fmt::format(
-            "the emulator has no {} \"{}\".{} It has: {}.", kind, name,
-            near.empty() ? "" : fmt::format(" Is \"{}\" meant?", near), list));
+        throw InputError(
+            fmt::format("the emulator has no {} \"{}\".{} It has: {}.", kind, name,
+                        nearest_hint(name, names, " Is \"", "\" meant?"), list));
     }
     return static_cast<int>(found - names.begin());
 }

@@ -1,7 +1,7 @@
 #include "emulator/training/dataset.hpp"
 
 #include "common/errors.hpp"
-#include "common/json_reader.hpp"
+#include "common/nearest_word.hpp"
 
 #include <algorithm>
 #include <set>
@@ -24,11 +24,10 @@ RowMatrix columns(const Hdf5Reader& file, const std::filesystem::path& path,
     RowMatrix chosen(all.rows(), static_cast<Eigen::Index>(wanted.size()));
     for (std::size_t i = 0; i < wanted.size(); ++i) {
         const auto found = std::ranges::find(names, wanted[i]);
-        const std::string near = nearest_word(wanted[i], names);
         require(found != names.end(),
                 fmt::format("{}: \"{}\" has no column \"{}\".{} It has: {}.",
                             path.string(), dataset, wanted[i],
-                            near.empty() ? "" : fmt::format(" Is \"{}\" meant?", near),
+                            nearest_hint(wanted[i], names, " Is \"", "\" meant?"),
                             fmt::join(names, ", ")));
         chosen.col(static_cast<Eigen::Index>(i)) = all.col(found - names.begin());
     }

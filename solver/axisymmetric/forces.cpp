@@ -1,7 +1,6 @@
 #include "solver/axisymmetric/dynamics.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace taylorcal::axisymmetric {
 

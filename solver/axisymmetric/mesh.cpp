@@ -13,6 +13,8 @@ namespace {
 // by half a per cent. Heads are flattened by the impact, the more the nearer to a cone's
 // tip.
 constexpr double square_aspect = 1;
+constexpr double head_aspect = 2;
+constexpr double tip_aspect = 6, refined_tip_aspect = 3;
 constexpr double cone_tip_radii = 4;  // of the tip: above, a cone's cells are square
 // Where a cylinder ceases to be undeformed is decided by the elastic waves that run to
 // and fro before the plastic front, and thus by all rows: tall ones in the rear smear
@@ -28,9 +30,8 @@ constexpr int row_samples = 2000;
 
 /// How a shape is cut.
 struct Division {
-    double columns;      ///< across the rear, of those asked for
-    double head_aspect;  ///< height / width of the head's cells; of a cone's at its tip
-    double rim;          ///< width of a head's or cone's outermost column, over the mean
+    double columns;  ///< across the rear, of those asked for
+    double rim;      ///< width of a head's or cone's outermost column, over the mean
 };
 
 /// Refined divisions are what brings sizes to their limits within 1 % or so
@@ -44,15 +45,14 @@ Division division_of(const specimen::Profile& profile, bool refined) {
         2;
     switch (profile.kind) {
         case specimen::ProfileKind::stepped:
-            if (profile.end_radius > between_heads)
-                return refined ? Division{11.0 / 8, 2, 1} : Division{1, 2, 1};
-            return refined ? Division{9.0 / 8, 2, 0.8} : Division{1, 2, 1};
+            if (profile.end_radius > between_heads) return {refined ? 11.0 / 8 : 1, 1};
+            return refined ? Division{9.0 / 8, 0.8} : Division{1, 1};
         case specimen::ProfileKind::tapered:
-            return refined ? Division{1, 3, 0.25} : Division{1, 6, 1};
+            return {1, refined ? 0.25 : 1};
         case specimen::ProfileKind::cylinder:
             break;
     }
-    return {refined ? 10.0 / 8 : 1, square_aspect, 1};
+    return {refined ? 10.0 / 8 : 1, 1};
 }
 
 /// One stretch of the profile between two stations.
@@ -61,7 +61,7 @@ struct Section {
     double bottom_radius, top_radius;  ///< [m]
     specimen::ProfileKind kind;        ///< of the specimen
     bool head;                         ///< below the head-rear section
-    double head_aspect;                ///< see Division
+    double tip_aspect;                 ///< of a cone's cells at its tip
 
     double radius_at(double height) const {
         return std::lerp(bottom_radius, top_radius, (height - bottom) / (top - bottom));
@@ -75,11 +75,11 @@ struct Section {
         if (!head) return square_aspect;
         if (kind != specimen::ProfileKind::tapered) return head_aspect;
         const double share = std::min(1.0, radii / cone_tip_radii);
-        return std::lerp(head_aspect, square_aspect, share);
+        return std::lerp(tip_aspect, square_aspect, share);
     }
 };
 
-std::vector<Section> sections_of(const specimen::Shape& shape, double head_aspect) {
+std::vector<Section> sections_of(const specimen::Shape& shape, bool refined) {
     std::vector<Section> sections;
     const auto& height = shape.station_height;
     for (std::size_t i = 0; i + 1 < height.size(); ++i) {
@@ -87,7 +87,7 @@ std::vector<Section> sections_of(const specimen::Shape& shape, double head_aspec
         const bool head = height[i + 1] <= shape.head_length * (1 + 1e-12);
         sections.push_back({height[i], height[i + 1], shape.station_radius[i],
                             shape.station_radius[i + 1], shape.profile.kind, head,
-                            head_aspect});
+                            refined ? refined_tip_aspect : tip_aspect});
     }
     return sections;
 }
@@ -155,7 +155,7 @@ Mesh make_mesh(const specimen::Shape& shape, int wanted_across, bool refined) {
     Mesh mesh;
     const Division division = division_of(shape.profile, refined);
     const long across = std::lround(division.columns * wanted_across);
-    const std::vector<Section> sections = sections_of(shape, division.head_aspect);
+    const std::vector<Section> sections = sections_of(shape, refined);
     const double rear_radius = shape.rear_radius();
     const bool stepped = sections.size() > 1 &&
                          sections.front().bottom_radius == sections.front().top_radius;

@@ -2,7 +2,6 @@
 
 #include "solver/axisymmetric/body.hpp"
 
-#include <array>
 #include <cstddef>
 #include <utility>
 #include <vector>

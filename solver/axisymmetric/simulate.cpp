@@ -4,11 +4,12 @@
 #include "solver/axisymmetric/cycle.hpp"
 #include "solver/axisymmetric/monitor.hpp"
 #include "solver/axisymmetric/profile.hpp"
+#include "solver/impact/ringing_period.hpp"
+#include "solver/impact/thread_clock.hpp"
 #include "solver/observe/outline.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <limits>
 #include <optional>
 #include <string>
@@ -21,19 +22,12 @@ namespace {
 constexpr int size_samples = 16;  // over one ringing period after the stop
 constexpr std::int64_t cycles_between_clock_reads = 64;
 
-double thread_seconds() {
-    timespec now{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-/// Time in which a longitudinal wave runs up and down the undeformed specimen [s].
+/// Of the undeformed specimen [s].
 double ringing_period(const Body& body, double length) {
-    const auto& start = body.thermo.front();
-    const double shear =
-        material::shear_modulus(start.bulk_modulus, body.parameters.poisson_ratio);
-    const double young = 2 * shear * (1 + body.parameters.poisson_ratio);
-    return 2 * length / std::sqrt(young / body.parameters.initial_density);
+    const double bulk = body.thermo.front().bulk_modulus;
+    return impact::ringing_period(
+        length, bulk, material::shear_modulus(bulk, body.parameters.poisson_ratio),
+        body.parameters.initial_density);
 }
 
 /// Sizes and sampled outlines averaged over several moments.
@@ -101,7 +95,7 @@ void run(const impact::ImpactCase& impact_case, Body& body,
     const bool fixed_time = impact_case.run_until_s > 0;
     const double end =
         fixed_time ? impact_case.run_until_s : std::numeric_limits<double>::infinity();
-    const double begun = thread_seconds();
+    const double begun = impact::thread_seconds();
     const double ringing = ringing_period(body, impact_case.shape.length());
     ShapeMean shape;
     int samples = 0;
@@ -124,7 +118,7 @@ void run(const impact::ImpactCase& impact_case, Body& body,
             if (++samples == size_samples) break;
         }
         if (++cycles % cycles_between_clock_reads == 0) {
-            const auto limit = limit_reached(body, thread_seconds() - begun);
+            const auto limit = limit_reached(body, impact::thread_seconds() - begun);
             if (!limit) continue;
             // A specimen that has stopped is measured, even when its ringing is cut
             // short, unless that depends on the machine.
@@ -139,7 +133,7 @@ void run(const impact::ImpactCase& impact_case, Body& body,
     result.sizes = shape.sizes();
     result.outline_radius = shape.outline();
     monitor.report(body, stop_time, result);
-    result.cpu_s = thread_seconds() - begun;
+    result.cpu_s = impact::thread_seconds() - begun;
 }
 
 }  // namespace

@@ -4,10 +4,12 @@
 #include "common/program_code.hpp"
 #include "common/progress.hpp"
 #include "common/sha256.hpp"
+#include "common/simd.hpp"
 #include "solver/commands/journal.hpp"
 #include "solver/commands/run_table.hpp"
 #include "solver/commands/solver_provenance.hpp"
 #include "solver/impact/simulate.hpp"
+#include "solver/impact/thread_clock.hpp"
 
 #include <exception>
 #include <map>
@@ -18,28 +20,20 @@
 #include <nlohmann/json.hpp>
 #include <omp.h>
 #include <spdlog/spdlog.h>
-#include <time.h>
 
 namespace taylorcal::commands {
 namespace {
 
-/// Processor time of this thread [s].
-double thread_seconds() {
-    timespec now{};
-    ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
 FinishedRun compute(std::int64_t run_id, const impact::ImpactCase& impact_case,
                     const Simulate& simulate) {
-    const double start = thread_seconds();
+    const double start = impact::thread_seconds();
     FinishedRun run;
     try {
         run = row_of(run_id, simulate(impact_case));
     } catch (const std::exception& error) {
         run = failed_row(run_id, error.what());
     }
-    run.cpu_s = thread_seconds() - start;
+    run.cpu_s = impact::thread_seconds() - start;
     return run;
 }
 
@@ -52,8 +46,9 @@ nlohmann::json journal_header(const Design& design, const nlohmann::json& config
                               design.shape[row]);
         for (const double value : values) inputs += fmt::format(" {}", value);
     }
-    return {{"schema", "taylorcal/journal/1"},
+    return {{"schema", "taylorcal/journal/2"},
             {"solver_code", program_code()},
+            {"simd", "TAYLORCAL_SIMD=" + simd::name(simd::variant())},
             {"configuration_digest", sha256(configuration.dump())},
             {"design_digest", sha256(inputs)}};
 }

@@ -62,6 +62,14 @@ void read_material(const JsonReader& reader, material::Parameters& material) {
     }
 }
 
+void check_strength(const JsonReader& reader, const material::Parameters& material) {
+    try {
+        material::check_strength(material);
+    } catch (const InputError& error) {
+        throw InputError(reader.where() + ": " + error.what());
+    }
+}
+
 Configuration read_configuration(const JsonReader& reader) {
     reader.only({"geometry", "fidelity", "numerics", "material", "effects"});
     const std::string geometry =

@@ -22,6 +22,9 @@ struct Configuration {
 /// Sets the parameters that an object {name: value} gives. InputError as below.
 void read_material(const JsonReader& reader, material::Parameters& material);
 
+/// `material::check_strength`, with the reader's file in its message.
+void check_strength(const JsonReader& reader, const material::Parameters& material);
+
 /// Reads {"geometry", "fidelity", "numerics": {name: value}, "material": {name: value},
 /// "effects": {name: amplitude}}; all keys are optional.
 /// InputError for an unknown key, a wrong word or a value out of range.

@@ -1,6 +1,7 @@
 #include "solver/commands/deformation_path.hpp"
 
 #include "common/errors.hpp"
+#include "solver/commands/configuration.hpp"
 
 #include <cmath>
 
@@ -91,6 +92,7 @@ material::Parameters read_parameters(const JsonReader& reader) {
                 fmt::format("{}: parameters: {}", reader.where(), error.what()));
         }
     }
+    check_strength(reader, parameters);
     return parameters;
 }
 

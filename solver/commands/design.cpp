@@ -1,6 +1,7 @@
 #include "solver/commands/design.hpp"
 
 #include "common/errors.hpp"
+#include "common/nearest_word.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -29,12 +30,10 @@ void check_input_names(const Design& design, const std::string& where) {
     std::set<std::string> seen;
     for (const std::string& name : design.input_names) {
         if (std::find(known.begin(), known.end(), name) == known.end()) {
-            const std::string near = nearest_word(name, known);
             throw InputError(fmt::format(
                 "{}: input \"{}\" is unknown{}. Inputs are {} and the names that "
                 "\"solver parameters\" and \"solver effects\" list.",
-                where, name, near.empty() ? "" : " (did you mean \"" + near + "\"?)",
-                fmt::join(shot_inputs, ", ")));
+                where, name, nearest_hint(name, known), fmt::join(shot_inputs, ", ")));
         }
         require(
             seen.insert(name).second,

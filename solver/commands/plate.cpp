@@ -45,6 +45,7 @@ plate::PlateCase read_plate_case(const JsonReader& reader) {
     if (seed < 0) reader.fail("seed", fmt::format("= {} (expected 0 or more).", seed));
     plate_case.seed = static_cast<std::uint64_t>(seed);
     read_material(reader.object_or_empty("material"), plate_case.material);
+    check_strength(reader, plate_case.material);
     const double cells =
         (plate_case.flyer_thickness + plate_case.target_thickness) / plate_case.cell;
     const double steps = plate_case.duration / (plate_case.cell / 1e4);

@@ -1,6 +1,7 @@
 #include "solver/commands/run.hpp"
 
 #include "common/errors.hpp"
+#include "common/nearest_word.hpp"
 #include "solver/commands/run_file.hpp"
 #include "solver/commands/run_table.hpp"
 #include "solver/commands/shot.hpp"
@@ -17,6 +18,7 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
+
 namespace taylorcal::commands {
 namespace {
 
@@ -76,12 +78,11 @@ std::string block_of(const std::string& setting) {
     std::vector<std::string> known = material::setting_names();
     if (std::find(known.begin(), known.end(), name) != known.end()) return "material";
     known.insert(known.end(), effect_names.begin(), effect_names.end());
-    const std::string near = nearest_word(name, known);
     throw InputError(fmt::format(
         "--set {}: \"{}\" is unknown{}. \"solver parameters\" and \"solver effects\" "
         "list "
         "the names.",
-        setting, name, near.empty() ? "" : " (did you mean \"" + near + "\"?)"));
+        setting, name, nearest_hint(name, known)));
 }
 
 Configuration configuration_of(const RunOptions& options) {

@@ -7,12 +7,12 @@
 #include "common/simd.hpp"
 
 #include <fstream>
+#include <random>
 #include <system_error>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
-#include <unistd.h>
 
 namespace taylorcal::commands {
 namespace {
@@ -40,10 +40,13 @@ void make_folder(const fs::path& folder) {
     fs::permissions(folder, fs::status(folder.parent_path()).permissions(), ignored);
 }
 
-/// Under a name of this process alone first: two users may keep the same run at once.
+/// Under a name that nobody else draws first: several hosts may keep the same run at
+/// once, and share numbers of processes.
 void write_entry(const fs::path& path, const std::string& text) {
     make_folder(path.parent_path());
-    const fs::path own = fmt::format("{}.{}.tmp", path.string(), ::getpid());
+    std::random_device random;
+    const fs::path own =
+        fmt::format("{}.{:08x}{:08x}.tmp", path.string(), random(), random());
     std::ofstream file(own, std::ios::binary);
     file << text << std::flush;
     const bool good = file.good();

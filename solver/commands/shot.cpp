@@ -36,6 +36,7 @@ impact::ImpactCase make_case(const Shot& shot, const Configuration& configuratio
         impact_case.shape = specimen::make_shape(specimen::profile_named(shot.shape),
                                                  mm * shot.initial_diameter_mm,
                                                  mm * shot.initial_length_mm);
+        material::check_strength(impact_case.material);
         effects::apply_effects(configuration.effects, impact_case);
     } catch (const InputError& error) {
         throw InputError(where + ": " + error.what());

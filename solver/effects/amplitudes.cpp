@@ -1,5 +1,5 @@
 #include "common/errors.hpp"
-#include "common/json_reader.hpp"
+#include "common/nearest_word.hpp"
 #include "solver/effects/effect_list.hpp"
 
 #include <algorithm>
@@ -42,10 +42,9 @@ const Effect& find_effect(const std::string& name) {
     const auto found = std::find_if(list.begin(), list.end(),
                                     [&](const Effect& e) { return e.name == name; });
     if (found != list.end()) return *found;
-    const std::string near = nearest_word(name, effect_names());
     throw InputError(
         fmt::format("effect \"{}\" is unknown{}. \"solver effects\" lists them all.",
-                    name, near.empty() ? "" : " (did you mean \"" + near + "\"?)"));
+                    name, nearest_hint(name, effect_names())));
 }
 
 void set_amplitude(Amplitudes& amplitudes, const std::string& name, double value) {
@@ -68,8 +67,7 @@ void apply_effects(const Amplitudes& amplitudes, impact::ImpactCase& impact_case
 }
 
 std::string prior_name(PriorKind kind) {
-    if (kind == PriorKind::half_normal) return "half_normal";
-    return kind == PriorKind::normal ? "normal" : "uniform";
+    return kind == PriorKind::normal ? "normal" : "half_normal";
 }
 
 std::string acts_on_name(ActsOn acts_on) {

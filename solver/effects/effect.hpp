@@ -8,11 +8,11 @@
 
 namespace taylorcal::effects {
 
-enum class PriorKind { half_normal, normal, uniform };
+enum class PriorKind { half_normal, normal };
 enum class ActsOn { material, anvil, initial_state, impact };
 
 /// Belief about an amplitude before any measurement; `scale` is the standard deviation
-/// of the normal (before halving), or the width of a uniform one from zero.
+/// of the normal, before halving.
 struct Prior {
     PriorKind kind;
     double scale;

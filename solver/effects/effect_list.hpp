@@ -25,7 +25,7 @@ void set_amplitude(Amplitudes& amplitudes, const std::string& name, double value
 /// InputError for one that the case's geometry or strength cannot have.
 void apply_effects(const Amplitudes& amplitudes, impact::ImpactCase& impact_case);
 
-/// "half_normal", "normal", "uniform".
+/// "half_normal", "normal".
 std::string prior_name(PriorKind kind);
 /// "material", "anvil", "initial_state", "impact".
 std::string acts_on_name(ActsOn acts_on);

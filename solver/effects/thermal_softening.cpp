@@ -27,6 +27,7 @@ Effect thermal_softening() {
             "judgement",
         .apply =
             [](impact::ImpactCase& impact_case, double share) {
+                material::check_melting_temperature(impact_case.material);
                 const double cold = impact_case.material.reference_temperature;
                 const double melting = impact_case.material.jc_melting_temperature;
                 impact_case.additions.grains.slip_resistance.push_back(

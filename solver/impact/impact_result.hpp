@@ -15,19 +15,29 @@ namespace taylorcal::impact {
 /// much processor time, which another machine might not have needed.
 enum class Status { stopped, not_stopped, failed, over_cpu_limit };
 
-/// Extremes and integrals over a run that help to say where a model fails.
+/// Extremes and integrals over a run that help to say where a model fails. Four are read
+/// otherwise off cells in (r, z) than off particles in 3D; compare them within a
+/// geometry.
 struct Descriptors {
     /// When the rear's axial velocity crosses zero; NaN, as is the stress at half of it,
     /// in a run that ended before.
     double stop_time_us = std::numeric_limits<double>::quiet_NaN();
+    /// (r, z): at the end of any cycle; 3D: at any record of the history.
     double largest_temperature_K = 0;
-    double peak_strain_rate_per_s = 0;  ///< radial rate of the contact spot
+    /// Of the contact spot. (r, z): velocity over radius of the rim node, averaged over 1
+    /// us; 3D: growth between two records of the radius that the lowest layer's second
+    /// moment has.
+    double peak_strain_rate_per_s = 0;
     double plastic_work_J = 0;
-    double sliding_distance_mm = 0;  ///< largest radial travel along the anvil
+    /// Largest radial travel at the anvil. (r, z): of the foot's nodes, at any time and
+    /// either way; 3D: of the particles of the two lowest layers, outwards, at the end.
+    double sliding_distance_mm = 0;
     double smallest_grain_um = 0;
     double largest_weakened_fraction = 0;
     double largest_plastic_strain = 0;  ///< equivalent
-    /// Over the deformed part, at half the stop time.
+    /// By mass, at half the stop time. (r, z): of the cells with a plastic rate above 1e3
+    /// 1/s, at the last record before; 3D: of the particles with a plastic strain above
+    /// 0.05, between every tenth record.
     double mean_von_mises_GPa = std::numeric_limits<double>::quiet_NaN();
     double viscous_share = 0;  ///< artificial viscosity's share of the work
     double hourglass_share = 0;

@@ -1,5 +1,5 @@
 #include "common/errors.hpp"
-#include "common/json_reader.hpp"
+#include "common/nearest_word.hpp"
 #include "solver/impact/impact_case.hpp"
 
 #include <algorithm>
@@ -14,10 +14,8 @@ std::size_t position(const std::string& what, const std::string& word,
                      const std::vector<std::string>& known) {
     const auto found = std::find(known.begin(), known.end(), word);
     if (found != known.end()) return static_cast<std::size_t>(found - known.begin());
-    const std::string near = nearest_word(word, known);
     throw InputError(fmt::format("{} \"{}\" is unknown{}. Use one of: {}.", what, word,
-                                 near.empty() ? "" : " (did you mean \"" + near + "\"?)",
-                                 fmt::join(known, ", ")));
+                                 nearest_hint(word, known), fmt::join(known, ", ")));
 }
 
 struct Resolution {

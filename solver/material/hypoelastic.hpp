@@ -2,7 +2,6 @@
 
 #include "solver/material/strength.hpp"
 
-#include <cmath>
 #include <cstddef>
 #include <memory>
 #include <vector>

@@ -37,7 +37,7 @@ class NetworkEquationOfState final : public EquationOfState {
 /// The table of the committed network of copper, made at the first call.
 const ThermoTable& copper_md_table();
 
-/// 16 hexadecimal digits of the committed network's text.
+/// SHA-256 of the committed network's text.
 std::string copper_md_digest();
 
 }  // namespace taylorcal::material

@@ -1,7 +1,7 @@
 #include "solver/material/parameters.hpp"
 
 #include "common/errors.hpp"
-#include "common/json_reader.hpp"
+#include "common/nearest_word.hpp"
 
 #include <algorithm>
 
@@ -13,10 +13,8 @@ namespace {
 [[noreturn]] void fail_unknown(std::string_view what, std::string_view word,
                                const std::vector<std::string>& known,
                                const std::string& remedy) {
-    const std::string near = nearest_word(word, known);
     throw InputError(fmt::format("{} \"{}\" is unknown{}. {}", what, word,
-                                 near.empty() ? "" : " (did you mean \"" + near + "\"?)",
-                                 remedy));
+                                 nearest_hint(word, known), remedy));
 }
 
 const ParameterInfo& find_parameter(std::string_view name) {
@@ -81,6 +79,20 @@ void set_parameter(Parameters& parameters, std::string_view name, double value) 
                 name, value, info.unit == "1" ? "" : " " + info.unit, info.lowest,
                 info.highest));
     parameters.*info.member = value;
+}
+
+void check_melting_temperature(const Parameters& parameters) {
+    require(
+        parameters.jc_melting_temperature > parameters.reference_temperature,
+        fmt::format("jc_melting_temperature = {:.10g} K is not above "
+                    "reference_temperature = {:.10g} K, from which metal softens. "
+                    "Raise the first or lower the second.",
+                    parameters.jc_melting_temperature, parameters.reference_temperature));
+}
+
+void check_strength(const Parameters& parameters) {
+    if (parameters.strength == StrengthModel::johnson_cook)
+        check_melting_temperature(parameters);
 }
 
 }  // namespace taylorcal::material

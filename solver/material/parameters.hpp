@@ -83,4 +83,11 @@ void set_model(Parameters& parameters, std::string_view name, std::string_view w
 /// its range.
 void set_parameter(Parameters& parameters, std::string_view name, double value);
 
+/// InputError unless metal that softens with temperature melts above the reference.
+void check_melting_temperature(const Parameters& parameters);
+
+/// InputError when constants, each within its range, contradict each other in the chosen
+/// strength.
+void check_strength(const Parameters& parameters);
+
 }  // namespace taylorcal::material

@@ -6,8 +6,6 @@
 #include <type_traits>
 #include <utility>
 
-#include <Eigen/Core>
-
 namespace taylorcal::material {
 
 inline constexpr std::size_t slip_system_count = 12;
@@ -16,9 +14,6 @@ inline constexpr std::size_t slip_system_count = 12;
 /// {(xx-yy)/sqrt2, (2zz-xx-yy)/sqrt6, sqrt2 xy, sqrt2 xz, sqrt2 yz}, so that A : B = a .
 /// b.
 using Deviator = std::array<double, 5>;
-
-Deviator deviator_from_tensor(const Eigen::Matrix3d& tensor);
-Eigen::Matrix3d tensor_from_deviator(const Deviator& deviator);
 
 /// Schmid tensors M^d = sym(bhat x n) of the twelve fcc systems {111}<110> in the crystal
 /// frame, as deviators; |M^d|^2 = 1/2 (Eq. 8).

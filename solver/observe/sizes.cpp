@@ -14,19 +14,6 @@ constexpr double foot_zone = 2e-3;           // height read as the foot [m]
 constexpr double undeformed_change = 0.005;  // of the radius
 constexpr double low_section = 0.2;  // height of the low diameter / initial length
 
-/// The head's largest radius between the anvil and the top of the foot zone, where the
-/// piece that leaves the zone is cut. The rear is not read: its shoulder sinks into the
-/// zone as a head collapses, and the size would jump.
-double foot_radius(const DeformedProfile& profile) {
-    const std::size_t points =
-        profile.head_points > 0 ? profile.head_points : profile.outline_height.size();
-    double largest = silhouette_radius(profile, foot_zone, points);
-    for (std::size_t i = 0; i < points; ++i)
-        if (profile.outline_height[i] <= foot_zone)
-            largest = std::fmax(largest, profile.outline_radius[i]);
-    return largest;
-}
-
 /// Radii with isolated outliers removed: the median of three neighbours changes no
 /// monotone stretch, so edges and steps stay where they are.
 std::vector<double> without_outliers(const std::vector<double>& radius) {
@@ -54,6 +41,16 @@ double undeformed_length(const DeformedProfile& profile) {
 }
 
 }  // namespace
+
+double foot_radius(const DeformedProfile& profile) {
+    const std::size_t points =
+        profile.head_points > 0 ? profile.head_points : profile.outline_height.size();
+    double largest = silhouette_radius(profile, foot_zone, points);
+    for (std::size_t i = 0; i < points; ++i)
+        if (profile.outline_height[i] <= foot_zone)
+            largest = std::fmax(largest, profile.outline_radius[i]);
+    return largest;
+}
 
 Sizes measure(const DeformedProfile& profile) {
     constexpr double to_mm = 1e3;

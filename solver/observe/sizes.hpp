@@ -34,6 +34,11 @@ struct Sizes {
 
 Sizes measure(const DeformedProfile& profile);
 
+/// The head's largest radius between the anvil and 2 mm above it, where the piece of
+/// outline that leaves this zone is cut [m]. The rear is not read: its shoulder sinks
+/// into the zone as a head collapses, and the size would jump.
+double foot_radius(const DeformedProfile& profile);
+
 /// "final_length_mm" ... in the order of the struct, and the values in that order.
 const std::vector<std::string>& size_names();
 std::vector<double> size_values(const Sizes& sizes);

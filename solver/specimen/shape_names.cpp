@@ -1,5 +1,5 @@
 #include "common/errors.hpp"
-#include "common/json_reader.hpp"
+#include "common/nearest_word.hpp"
 #include "common/specimen_names.hpp"
 #include "solver/specimen/shape.hpp"
 
@@ -59,12 +59,10 @@ Profile profile_named(const std::string& name) {
     if (const std::optional<Profile> measured = measured_profile(name)) return *measured;
     std::vector<std::string> understood = {"cylinder", "cone"};
     understood.insert(understood.end(), paper_shapes().begin(), paper_shapes().end());
-    const std::string near = nearest_word(name, understood);
     throw InputError(fmt::format(
         "shape \"{}\" is unknown{}. Use one of: {}, or measures of your own, as in "
         "reduced_head_5mm_by_12mm or truncated_cone_3mm_of_7.6mm_by_25.4mm.",
-        name, near.empty() ? "" : " (did you mean \"" + near + "\"?)",
-        fmt::join(paper_shapes(), ", ")));
+        name, nearest_hint(name, understood), fmt::join(paper_shapes(), ", ")));
 }
 
 }  // namespace taylorcal::specimen

@@ -33,8 +33,7 @@ class Body {
     /// Moves all particles for the same time, each block in as many steps as it needs.
     void cycle();
 
-    /// Time that the next cycle takes unless it is shortened [s].
-    double cycle_time() const { return schedule_.duration(); }
+    /// Holds the next cycle to a time [s].
     void shorten_cycle(double longest) { schedule_.shorten(longest); }
 
     double time() const { return time_; }

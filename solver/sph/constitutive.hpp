@@ -48,7 +48,6 @@ class Constitutive {
     const Work& work() const { return work_; }
     /// Mean state of a particle's grains; `index` counts within Packing::active.
     material::GrainState state(std::size_t index, std::size_t lane) const;
-    std::size_t grains_per_point() const { return grains_; }
 
   private:
     template <class Vector>

@@ -7,10 +7,8 @@ namespace taylorcal::sph {
 
 namespace {
 
-constexpr double rear_share = 0.125;  // of the length, whose mean velocity is watched
-constexpr double deformed_strain =
-    0.05;                           // equivalent plastic strain of the deformed part
-constexpr double foot_zone = 2e-3;  // height read as the foot [m]
+constexpr double rear_share = 0.125;      // of the length, whose mean velocity is watched
+constexpr double deformed_strain = 0.05;  // equivalent, of the deformed part
 // The grains' states are slow to read, and their mean stress changes slowly.
 constexpr std::size_t records_per_stress_sample = 10;
 
@@ -34,16 +32,6 @@ double interpolated(const std::vector<std::pair<double, double>>& samples, doubl
             return std::lerp(low, high, (time - before) / (after - before));
     }
     return samples.back().second;
-}
-
-double foot_radius(const observe::DeformedProfile& profile) {
-    double largest = profile.outline_radius.front();
-    for (std::size_t i = 0; i < profile.outline_height.size(); ++i) {
-        if (profile.outline_height[i] <= foot_zone) {
-            largest = std::max(largest, profile.outline_radius[i]);
-        }
-    }
-    return largest;
 }
 
 }  // namespace
@@ -124,8 +112,8 @@ void Monitor::record() {
         von_mises_.emplace_back(body_.time(), mean_von_mises_of_deformed_part());
     }
     history_.push_back({body_.time() * 1e6, profile.total_length * 1e3,
-                        foot_radius(profile) * 1e3, rear_velocity(), rate, temperature,
-                        body_.kinetic_energy(), body_.total_energy()});
+                        observe::foot_radius(profile) * 1e3, rear_velocity(), rate,
+                        temperature, body_.kinetic_energy(), body_.total_energy()});
 }
 
 impact::Descriptors Monitor::descriptors(std::optional<double> stop_time_s) const {

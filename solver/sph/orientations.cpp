@@ -3,7 +3,6 @@
 #include "solver/material/isotropic_set.hpp"
 #include "solver/material/uniform_rotation.hpp"
 
-#include <cmath>
 #include <map>
 #include <numbers>
 #include <utility>

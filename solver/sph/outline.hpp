@@ -5,7 +5,6 @@
 #include "solver/sph/packing.hpp"
 #include "solver/sph/particles.hpp"
 
-#include <cmath>
 #include <vector>
 
 namespace taylorcal::sph {

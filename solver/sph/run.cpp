@@ -1,11 +1,12 @@
 #include "solver/sph/run.hpp"
 
+#include "solver/impact/ringing_period.hpp"
 #include "solver/impact/simulate.hpp"
+#include "solver/impact/thread_clock.hpp"
 #include "solver/observe/outline.hpp"
 #include "solver/sph/monitor.hpp"
 
 #include <cmath>
-#include <ctime>
 #include <optional>
 
 #include <fmt/core.h>
@@ -17,12 +18,6 @@ namespace {
 constexpr int samples_per_ringing_period = 20;
 // A run's time scales with its length; 40 mm ring and stop within some 130 us.
 constexpr double expected_duration_per_length = 130e-6 / 40e-3;  // [s/m]
-
-double thread_cpu_seconds() {
-    timespec now{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 /// The mean of several outlines of one specimen, point by point.
 class ProfileMean {
@@ -72,6 +67,7 @@ class Run {
     impact::ImpactResult compute() {
         impact::ImpactResult result;
         monitor_.record();
+        if (case_.snapshot_interval_s > 0) take_snapshot();
         while (!finished(result)) advance();
         monitor_.record();
         if (profiles_.empty())
@@ -91,13 +87,14 @@ class Run {
         result.grains_per_point = case_.numerics.grains_per_point;
         result.phase_shares = body_.clock().shares();
         result.neighbours = body_.mean_neighbours();
-        result.cpu_s = thread_cpu_seconds() - start_;
+        result.cpu_s = impact::thread_seconds() - start_;
         return result;
     }
 
   private:
     void advance() {
         if (case_.run_until_s > 0) body_.shorten_cycle(case_.run_until_s - body_.time());
+        body_.shorten_cycle(next_snapshot_ - body_.time());
         body_.cycle();
         const double velocity = monitor_.rear_velocity();
         if (!stop_time_ && velocity >= 0) {
@@ -108,14 +105,17 @@ class Run {
             monitor_.record();
             next_record_ = body_.time() + record_interval_;
         }
-        if (case_.snapshot_interval_s > 0 && body_.time() >= next_snapshot_) {
-            snapshots_.push_back(monitor_.fields());
-            next_snapshot_ += case_.snapshot_interval_s;
-        }
+        if (body_.time() >= next_snapshot_ * (1 - 1e-9)) take_snapshot();
         if (stop_time_ && case_.run_until_s <= 0 && body_.time() >= next_profile_) {
             profiles_.add(monitor_.outline().measure(body_.particles()));
             next_profile_ = body_.time() + ringing_period_ / samples_per_ringing_period;
         }
+    }
+
+    void take_snapshot() {
+        snapshots_.push_back(monitor_.fields());
+        const auto taken = static_cast<double>(snapshots_.size());
+        next_snapshot_ = taken * case_.snapshot_interval_s;
     }
 
     /// Decides whether the run is over, and how it went.
@@ -153,7 +153,11 @@ class Run {
         if (body_.ticks() >= numerics.step_limit) {
             return limit("step_limit", static_cast<double>(numerics.step_limit));
         }
-        if (thread_cpu_seconds() - start_ > numerics.cpu_limit_s) {
+        if (body_.point_updates() >= numerics.point_update_limit) {
+            return limit("point_update_limit",
+                         static_cast<double>(numerics.point_update_limit));
+        }
+        if (impact::thread_seconds() - start_ > numerics.cpu_limit_s) {
             return end(Status::over_cpu_limit,
                        fmt::format("cpu_limit_s of {:g} reached at {:.4g} us",
                                    numerics.cpu_limit_s, body_.time() * 1e6));
@@ -161,27 +165,24 @@ class Run {
         return false;
     }
 
-    /// There and back of a longitudinal wave along the specimen [s].
     double ringing_period() const {
         const std::size_t slot = body_.packing().active.back() * block_size;
         const double bulk =
             static_cast<double>(body_.particles().bulk_modulus.lanes()[slot]);
-        const double shear = body_.shear_modulus(slot);
-        const double young = 9 * bulk * shear / (3 * bulk + shear);
-        const double density =
-            static_cast<double>(body_.particles().density.lanes()[slot]);
-        return 2 * case_.shape.length() / std::sqrt(young / density);
+        return impact::ringing_period(
+            case_.shape.length(), bulk, body_.shear_modulus(slot),
+            static_cast<double>(body_.particles().density.lanes()[slot]));
     }
 
     const impact::ImpactCase& case_;
-    double start_ = thread_cpu_seconds();
+    double start_ = impact::thread_seconds();
     Body body_;
     Monitor monitor_;
     ProfileMean profiles_;
     double record_interval_ = 0;
     double next_record_ = 0;
     double next_profile_ = 0;
-    double next_snapshot_ = 0;
+    double next_snapshot_ = INFINITY;
     std::vector<impact::Fields> snapshots_;
     double ringing_period_ = 0;
     std::optional<double> stop_time_;

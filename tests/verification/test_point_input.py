@@ -38,6 +38,14 @@ BROKEN = {
         {**path(), "parameters": {"poisson_ratio": 0.7}},
         ["poisson_ratio", "0.7"],
     ),
+    "melting below the reference": (
+        {
+            **path(),
+            "strength": "johnson_cook",
+            "parameters": {"jc_melting_temperature": 500, "reference_temperature": 500},
+        },
+        ["jc_melting_temperature = 500 K", "reference_temperature = 500 K", "Raise"],
+    ),
     "unknown equation of state": (
         {**path(), "equation_of_state": "linaer"},
         ["equation_of_state", "linaer", '"linear"'],

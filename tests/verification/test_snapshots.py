@@ -43,7 +43,7 @@ def test_the_series_names_every_snapshot_with_its_time(snapshots):
     _, folder, _ = snapshots
     times = [entry["time"] for entry in series_of(folder)]
     assert times == sorted(times)
-    assert times == pytest.approx([0, 2, 4, 6, 8], abs=0.2)
+    assert times == pytest.approx([0, 2, 4, 6, 8], abs=1e-6)
     assert all((folder / entry["name"]).is_file() for entry in series_of(folder))
 
 

@@ -239,7 +239,7 @@ def test_killed_batch_resumes_to_the_same_bytes(solver, program, quick):
 def test_journal_of_another_configuration_is_refused(solver, quick):
     write_design(quick / "design.h5", [60.0])
     (quick / "database.h5.journal.jsonl").write_text(
-        '{"schema": "taylorcal/journal/1", "configuration_digest": "0"}\n'
+        '{"schema": "taylorcal/journal/2", "configuration_digest": "0"}\n'
     )
     done = solver("batch", "design.h5", "--config", "solver.json", "--out", "database.h5")
     assert done.returncode == 1

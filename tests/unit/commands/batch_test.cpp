@@ -74,6 +74,19 @@ TEST_CASE("a journal of another batch is refused with the remedy", "[batch]") {
         CHECK_THROWS_WITH(batch.run("other.h5", 1),
                           Contains("design_digest") && Contains("Delete it"));
     }
+    SECTION("another SIMD variant, and what would go on with it") {
+        std::string elsewhere = journal;
+        const std::string key = "\"simd\":\"TAYLORCAL_SIMD=";
+        const std::size_t place = elsewhere.find(key);
+        REQUIRE(place != std::string::npos);
+        elsewhere.insert(place + key.size(), "another_");
+        write_text_atomically(path, elsewhere);
+        CHECK_THROWS_WITH(
+            batch.run("other.h5", 1),
+            Contains("its simd is \"TAYLORCAL_SIMD=another_") &&
+                Contains("Delete it to start anew, or go back to what it was begun"));
+        CHECK(read_text(path) == elsewhere);
+    }
     SECTION("a damaged line before the last") {
         write_text_atomically(path, journal + "garbage\n{}");
         CHECK_THROWS_WITH(batch.run("other.h5", 1), Contains("line 6: damaged"));

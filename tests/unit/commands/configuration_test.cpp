@@ -1,6 +1,8 @@
 #include "solver/commands/configuration.hpp"
 
 #include "common/errors.hpp"
+#include "solver/commands/plate.hpp"
+#include "solver/commands/shot.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -48,6 +50,23 @@ TEST_CASE("the numerics block overrides the fidelity", "[configuration]") {
     CHECK(numerics.hourglass == 0.15);
     CHECK(numerics.grains_per_point == own.grains_per_point);
     CHECK(numerics.cfl == own.cfl);
+}
+
+TEST_CASE("a strength's constants must agree", "[configuration]") {
+    nlohmann::json material = {{"reference_temperature", 1400}};
+    CHECK_NOTHROW(make_case({}, configuration_of({{"material", material}}), "shot"));
+    material["strength"] = "johnson_cook";
+    const auto refused =
+        Contains("jc_melting_temperature = 1356 K is not above reference_temperature = "
+                 "1400 K") &&
+        Contains("Raise the first or lower the second");
+    CHECK_THROWS_WITH(make_case({}, configuration_of({{"material", material}}), "shot"),
+                      Contains("shot: ") && refused);
+    const nlohmann::json plate = {{"flyer_thickness_mm", 1}, {"target_thickness_mm", 2},
+                                  {"velocity_m_s", 300},     {"duration_us", 1},
+                                  {"material", material}};
+    CHECK_THROWS_WITH(read_plate_case(JsonReader(plate, "plate.json")),
+                      Contains("plate.json: ") && refused);
 }
 
 TEST_CASE("a wrong configuration is refused at its key", "[configuration]") {

@@ -73,10 +73,3 @@ TEST_CASE("text that is not JSON is refused with line and column", "[json]") {
     CHECK_THROWS_WITH(JsonReader::from_file("/nonexistent/x.json"),
                       Contains("cannot be read"));
 }
-
-TEST_CASE("hints are near words only", "[json]") {
-    const std::vector<std::string> words = {"velocity_m_s", "shape", "lot"};
-    CHECK(taylorcal::nearest_word("velocity_mm_s", words) == "velocity_m_s");
-    CHECK(taylorcal::nearest_word("shap", words) == "shape");
-    CHECK(taylorcal::nearest_word("temperature", words).empty());
-}

@@ -67,4 +67,11 @@ TEST_CASE("wrong effects are refused with a remedy", "[effects]") {
     cool.material.taylor_quinney = 0.1;
     CHECK_THROWS_WITH(testing::with_effect("taylor_quinney_shift", 0.2, cool),
                       Contains("taylor_quinney of 0.1"));
+    impact::ImpactCase melting;
+    melting.material.reference_temperature = 1356;
+    CHECK_THROWS_WITH(testing::with_effect("thermal_softening", 0.3, melting),
+                      Contains("jc_melting_temperature = 1356 K") &&
+                          Contains("reference_temperature = 1356 K") &&
+                          Contains("Raise the first"));
+    CHECK_NOTHROW(testing::with_effect("thermal_softening", 0, melting));
 }

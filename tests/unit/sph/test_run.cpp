@@ -64,6 +64,16 @@ TEST_CASE("a dislocation run stops, closes its energy and repeats itself", "[run
           Approx(first.sizes.final_length_mm).epsilon(0.01));
 }
 
+TEST_CASE("the history's foot is the one that is measured", "[run]") {
+    impact::ImpactCase impact_case = coarse_case();
+    impact_case.shape = specimen::make_shape(specimen::reduced_head_3mm);
+    impact_case.velocity_m_s = 180;  // the head collapses, its shoulder sinks to the foot
+    const impact::ImpactResult result = sph::simulate(impact_case);
+    REQUIRE(result.status == impact::Status::stopped);
+    CHECK(2 * result.history.back().foot_radius_mm ==
+          Approx(result.sizes.impact_diameter_mm).epsilon(5e-3));
+}
+
 TEST_CASE("a run that reaches a limit says so", "[run]") {
     impact::ImpactCase impact_case = coarse_case();
     impact_case.numerics.step_limit = 20;
@@ -71,6 +81,30 @@ TEST_CASE("a run that reaches a limit says so", "[run]") {
     CHECK(result.status == impact::Status::not_stopped);
     CHECK(result.reason.find("step_limit") != std::string::npos);
     CHECK(result.steps == 20);
+}
+
+TEST_CASE("a run ends when all its points' steps together are too many", "[run]") {
+    impact::ImpactCase impact_case = coarse_case();
+    impact_case.run_until_s = 3e-6;
+    const std::int64_t whole = sph::simulate(impact_case).grain_updates;
+    impact_case.numerics.point_update_limit = whole / 3;
+    const impact::ImpactResult result = sph::simulate(impact_case);
+    CHECK(result.status == impact::Status::not_stopped);
+    CHECK(result.reason.find("point_update_limit") != std::string::npos);
+    CHECK(result.grain_updates >= whole / 3);
+    CHECK(result.grain_updates < whole / 2);
+}
+
+TEST_CASE("snapshots are of the start, of every interval and of the end", "[run]") {
+    impact::ImpactCase impact_case = coarse_case();
+    impact_case.snapshot_interval_s = 1e-6;
+    impact_case.run_until_s = 2.5e-6;
+    const impact::ImpactResult result = sph::simulate(impact_case);
+    std::vector<double> times;
+    for (const impact::Fields& fields : result.snapshots) times.push_back(fields.time_us);
+    CHECK_THAT(times,
+               Catch::Matchers::Approx(std::vector<double>{0, 1, 2, 2.5}).margin(1e-9));
+    CHECK(result.snapshots.front().z_mm == result.snapshots.front().initial_z_mm);
 }
 
 TEST_CASE("a run that blows up fails with a reason and does not throw", "[run]") {

@@ -10,7 +10,11 @@ SOLID_ELEMENTS, SOLID_GRAINS = 6, 1
 
 @dataclass(frozen=True)
 class Statement:
-    """A figure of the paper at optimum (ii), and how ours is read off a run."""
+    """A figure of the paper at optimum (ii), and the descriptor of our run that answers it.
+
+    Of descriptors that the geometries define each in its own way, solver/impact/impact_result.hpp
+    tells what they are.
+    """
 
     shape: str
     velocity: float  # [m/s]

@@ -55,10 +55,30 @@ fs::path folder_of(const fs::path& path) {
     return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
+/// What stands in the way at the place of a file to write; empty if nothing does.
+std::string obstacle(const fs::path& path) {
+    std::error_code unknown;
+    const fs::file_status status = fs::status(path, unknown);
+    if (!fs::exists(status) || fs::is_regular_file(status)) return "";
+    return fs::is_directory(status) ? "a folder" : "a device, pipe or socket";
+}
+
 }  // namespace
 
-void write_atomically(const fs::path& path,
-                      const std::function<void(const fs::path&)>& write) {
+void require_writable(const fs::path& path, const std::vector<fs::path>& inputs) {
+    require(!path.empty(),
+            "the name of the file to write is empty (expected a path). Give one.");
+    const std::string in_the_way = obstacle(path);
+    require(in_the_way.empty(),
+            fmt::format("{}: cannot be written (it is {}; expected a new name or a "
+                        "regular file). Give another name.",
+                        path.string(), in_the_way));
+    std::error_code absent;
+    for (const fs::path& input : inputs)
+        require(!fs::equivalent(path, input, absent),
+                fmt::format("{}: is an input of this command, which its output would "
+                            "replace. Give the output another name.",
+                            path.string()));
     const fs::path folder = folder_of(path);
     require(fs::is_directory(folder),
             fmt::format("{}: cannot be written (no folder {}). Make the folder or give "
@@ -68,6 +88,11 @@ void write_atomically(const fs::path& path,
         ::access(folder.c_str(), W_OK) == 0,
         fmt::format("{}: cannot be written ({}). Choose a folder that you may write to.",
                     path.string(), std::strerror(errno)));
+}
+
+void write_atomically(const fs::path& path,
+                      const std::function<void(const fs::path&)>& write) {
+    require_writable(path);
     fs::path temporary = path;
     temporary += ".tmp";
     const Lock lock(temporary, path);

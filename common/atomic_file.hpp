@@ -3,12 +3,19 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace taylorcal {
 
+/// InputError unless a file can be written at `path`: in a folder that may be written to,
+/// and in place of nothing but a regular file that is none of `inputs`. For the start of
+/// a command, so that nothing is computed in vain.
+void require_writable(const std::filesystem::path& path,
+                      const std::vector<std::filesystem::path>& inputs = {});
+
 /// Writes a file so that a reader sees all of it or nothing: `write` fills a temporary
-/// name beside `path`, which is flushed to the disk and renamed. InputError if the folder
-/// cannot be written. The temporary file is removed when `write` throws.
+/// name beside `path`, which is flushed to the disk and renamed. InputError unless
+/// `require_writable`. The temporary file is removed when `write` throws.
 void write_atomically(const std::filesystem::path& path,
                       const std::function<void(const std::filesystem::path&)>& write);
 

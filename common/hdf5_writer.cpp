@@ -4,7 +4,6 @@
 #include "common/hdf5_handle.hpp"
 
 #include <fmt/core.h>
-#include <unistd.h>
 
 namespace taylorcal {
 
@@ -78,13 +77,7 @@ void write_attribute(hid_t file, const std::filesystem::path& path,
 
 Hdf5Writer::Hdf5Writer(std::filesystem::path path) : path_(std::move(path)) {
     silence_hdf5();
-    const std::filesystem::path folder =
-        path_.has_parent_path() ? path_.parent_path() : ".";
-    require(std::filesystem::is_directory(folder) && ::access(folder.c_str(), W_OK) == 0,
-            fmt::format(
-                "{}: cannot be written. Check that its folder exists and that you may "
-                "write to it.",
-                path_.string()));
+    require_writable(path_);
     const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
     constexpr std::size_t growth = 1 << 20;

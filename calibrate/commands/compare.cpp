@@ -36,6 +36,8 @@ void print_findings(const Comparison& comparison) {
 
 void compare(const InputPaths& paths, const std::filesystem::path& posterior,
              const std::filesystem::path& out) {
+    require_writable(out,
+                     {paths.settings, paths.measurements, paths.emulator, posterior});
     const StudyInputs inputs(paths);
     const SpreadLevels levels = spread_levels(inputs.settings);
     const StoredPosterior stored =

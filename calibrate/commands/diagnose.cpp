@@ -32,6 +32,13 @@ std::optional<std::size_t> second_best(const emulator::Emulator& ensemble) {
     return second;
 }
 
+void require_output(const std::filesystem::path& out, const InputPaths& files,
+                    const DiagnosisPaths& paths) {
+    require_writable(out,
+                     {files.settings, files.measurements, files.emulator, paths.posterior,
+                      paths.signatures, paths.finer, paths.candidates});
+}
+
 /// Everything read, and the diagnosis of it.
 class DiagnosedStudy {
   public:
@@ -104,6 +111,7 @@ class DiagnosedStudy {
 
 void diagnose(const InputPaths& files, const DiagnosisPaths& paths,
               const std::filesystem::path& out, int threads) {
+    require_output(out, files, paths);
     const DiagnosedStudy diagnosed(files, paths, threads);
     const DiagnosisProblem problem = diagnosed.problem();
     DiagnosisFacts facts = diagnosed.study().facts(problem, diagnosed.result);
@@ -122,6 +130,8 @@ void diagnose(const InputPaths& files, const DiagnosisPaths& paths,
 void design(const InputPaths& files, const DiagnosisPaths& paths,
             const std::filesystem::path& diagnosis, const std::filesystem::path& out,
             int threads) {
+    require_output(out, files, paths);
+    require_writable(out, {diagnosis});
     const JsonReader stored = JsonReader::from_file(diagnosis);
     require(stored.text("schema") == "taylorcal/diagnosis/1",
             fmt::format("{}: its schema is {} (expected taylorcal/diagnosis/1). Diagnose "

@@ -4,6 +4,7 @@
 #include "calibrate/posterior/summary.hpp"
 #include "calibrate/prior_pass/sample_prior.hpp"
 #include "calibrate/sampling/adapt.hpp"
+#include "common/atomic_file.hpp"
 #include "common/program_code.hpp"
 #include "common/progress.hpp"
 #include "common/sha256.hpp"
@@ -118,6 +119,7 @@ void print_subsets(const PlainFindings& findings, const ParameterSpace& space) {
 }  // namespace
 
 void sample(const InputPaths& paths, const std::filesystem::path& out, int threads) {
+    require_writable(out, {paths.settings, paths.measurements, paths.emulator});
     const StudyInputs inputs(paths);
     const bool plain = inputs.settings.draws_from == DrawsFrom::prior;
     const Checkpoint checkpoint{out.string() + ".checkpoint", digest_of(paths)};

@@ -25,6 +25,8 @@ std::string training_key(const TrainArguments& arguments) {
 }  // namespace
 
 int train(const TrainArguments& arguments) {
+    require_writable(arguments.out, {arguments.database, arguments.config,
+                                     arguments.better, arguments.from});
     const TrainConfig config = read_train_config(arguments.config);
     std::vector<std::string> inputs, outputs;
     for (const InputChoice& input : config.inputs) inputs.push_back(input.name);

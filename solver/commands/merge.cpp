@@ -1,5 +1,6 @@
 #include "solver/commands/merge.hpp"
 
+#include "common/atomic_file.hpp"
 #include "common/errors.hpp"
 
 #include <algorithm>
@@ -103,6 +104,7 @@ void add_merge(CLI::App& app) {
         "  solver merge old.h5 chunk_0.h5 --zero-input anvil_friction --out new.h5");
     command->callback([options] {
         write_database(options->out, merge(options->chunks, options->zero_inputs));
+        require_writable(options->out);
     });
 }
 

@@ -79,6 +79,7 @@ void add_plate(CLI::App& app) {
         ->required();
     command->footer(plate_help);
     command->callback([options] {
+        require_writable(options->out, {options->plate});
         const plate::PlateResult result =
             plate::simulate_plate(read_plate_case(JsonReader::from_file(options->plate)));
         write_text_atomically(options->out, to_csv(result));

@@ -45,6 +45,7 @@ void add_point(CLI::App& app) {
         ->required();
     command->footer(path_help);
     command->callback([options] {
+        require_writable(options->out, {options->path});
         const auto path = read_deformation_path(JsonReader::from_file(options->path));
         const auto records = follow(path);
         write_text_atomically(options->out, to_csv(records));

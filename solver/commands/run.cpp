@@ -1,5 +1,6 @@
 #include "solver/commands/run.hpp"
 
+#include "common/atomic_file.hpp"
 #include "common/errors.hpp"
 #include "common/nearest_word.hpp"
 #include "solver/commands/run_file.hpp"
@@ -117,6 +118,7 @@ void run(const RunOptions& options) {
         make_case(options.shot, configuration, "command line");
     require(options.until_us >= 0 && options.until_us <= 1e4,
             fmt::format("--until-us {} (expected 0 to 10000).", options.until_us));
+    if (!options.out.empty()) require_writable(options.out, {options.configuration});
     impact_case.run_until_s = 1e-6 * options.until_us;
 
     require(options.snapshot_interval_us >= 0.01,

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include <catch2/catch.hpp>
+#include <sys/stat.h>
 
 namespace fs = std::filesystem;
 using taylorcal::InputError;
@@ -53,4 +54,29 @@ TEST_CASE("a missing folder or file is the user's to mend", "[atomic]") {
                     InputError);
     CHECK_THROWS_AS(taylorcal::read_text(folder / "absent"), InputError);
     CHECK_THROWS_AS(taylorcal::read_text(folder.path()), InputError);
+}
+
+TEST_CASE("nothing but a regular file is replaced", "[atomic]") {
+    const taylorcal::testing::TemporaryFolder folder;
+    const fs::path pipe = folder / "pipe", link = folder / "link", self = folder.path();
+    REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+    fs::create_symlink(pipe, link);
+    const fs::path path = GENERATE_COPY(pipe, link, self);
+    const auto before = fs::symlink_status(path).type();
+    CHECK_THROWS_WITH(taylorcal::write_text_atomically(path, "x"),
+                      Catch::Contains(path.string() + ": cannot be written (it is a") &&
+                          Catch::Contains("another name"));
+    CHECK(fs::symlink_status(path).type() == before);
+    CHECK_THROWS_WITH(taylorcal::write_text_atomically("", "x"),
+                      Catch::Contains("is empty"));
+}
+
+TEST_CASE("an output that is an input is refused", "[atomic]") {
+    const taylorcal::testing::TemporaryFolder folder;
+    const fs::path path = folder / "a.txt";
+    taylorcal::write_text_atomically(path, "x");
+    fs::create_hard_link(path, folder / "same.txt");
+    CHECK_NOTHROW(taylorcal::require_writable(path, {"", folder / "absent"}));
+    CHECK_THROWS_WITH(taylorcal::require_writable(path, {"", folder / "same.txt"}),
+                      Catch::Contains("a.txt: is an input of this command"));
 }

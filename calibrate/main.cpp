@@ -2,6 +2,8 @@
 #include "calibrate/commands/diagnose.hpp"
 #include "calibrate/commands/sample.hpp"
 #include "common/errors.hpp"
+#include "common/option_text.hpp"
+#include "common/parse_command.hpp"
 #include "common/program_code.hpp"
 
 #include <CLI/CLI.hpp>
@@ -11,10 +13,9 @@
 
 namespace calibrate = taylorcal::calibrate;
 
-int main(int argc, char** argv) {
-    spdlog::set_default_logger(spdlog::stderr_color_mt("calibrate"));
-    spdlog::set_pattern("%n: %^%l%$: %v");
+namespace {
 
+int run(int argc, char** argv) {
     CLI::App app("Bayesian calibration of a network against measured Taylor tests.",
                  "calibrate");
     app.set_version_flag("--version", taylorcal::version_words("calibrate"));
@@ -34,7 +35,7 @@ int main(int argc, char** argv) {
     calibrate::InputPaths inputs;
     calibrate::DiagnosisPaths paths;
     std::string out, posterior, diagnosis;
-    int threads = omp_get_max_threads();
+    int threads = 0;
     const auto add_files = [&](CLI::App* command, const std::string& what) {
         command
             ->add_option("--config", inputs.settings, "What to calibrate, and how (JSON)")
@@ -48,9 +49,9 @@ int main(int argc, char** argv) {
     const auto add_threads = [&](CLI::App* command) {
         command
             ->add_option("--threads", threads,
-                         "Threads; the result does not depend on them")
-            ->check(CLI::PositiveNumber)
-            ->capture_default_str();
+                         "Threads (0, the default: one a processor); the result does "
+                         "not depend on them")
+            ->check(taylorcal::threads_problem);
     };
     CLI::App* sample = app.add_subcommand(
         "sample", "Draw parameters, weigh them by the likelihood, and map the posterior");
@@ -88,16 +89,19 @@ int main(int argc, char** argv) {
         ->required();
     add_signatures(design);
 
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 1;
-    }
-    return taylorcal::guarded_main("calibrate", [&] {
-        if (sample->parsed()) calibrate::sample(inputs, out, threads);
-        if (compare->parsed()) calibrate::compare(inputs, posterior, out);
-        if (diagnose->parsed()) calibrate::diagnose(inputs, paths, out, threads);
-        if (design->parsed()) calibrate::design(inputs, paths, diagnosis, out, threads);
-        return 0;
-    });
+    if (const auto status = taylorcal::parse_command(app, argc, argv)) return *status;
+    if (threads == 0) threads = omp_get_max_threads();
+    if (sample->parsed()) calibrate::sample(inputs, out, threads);
+    if (compare->parsed()) calibrate::compare(inputs, posterior, out);
+    if (diagnose->parsed()) calibrate::diagnose(inputs, paths, out, threads);
+    if (design->parsed()) calibrate::design(inputs, paths, diagnosis, out, threads);
+    return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    spdlog::set_default_logger(spdlog::stderr_color_mt("calibrate"));
+    spdlog::set_pattern("%n: %^%l%$: %v");
+    return taylorcal::guarded_main("calibrate", [=] { return run(argc, argv); });
 }

@@ -1,4 +1,6 @@
 #include "common/errors.hpp"
+#include "common/option_text.hpp"
+#include "common/parse_command.hpp"
 #include "common/program_code.hpp"
 #include "emulator/commands/commands.hpp"
 
@@ -9,11 +11,11 @@
 
 namespace emulator = taylorcal::emulator;
 
-int main(int argc, char** argv) {
-    spdlog::set_default_logger(spdlog::stderr_color_mt("emulator"));
-    spdlog::set_pattern("%n: %v");
+namespace {
 
-    CLI::App app("Regression networks: learn a database of runs, then answer at once.");
+int run(int argc, char** argv) {
+    CLI::App app("Regression networks: learn a database of runs, then answer at once.",
+                 "emulator");
     app.set_version_flag("--version", taylorcal::version_words("emulator"));
     app.require_subcommand(1);
     app.footer(
@@ -29,7 +31,7 @@ int main(int argc, char** argv) {
         "uniform_cylinder");
 
     emulator::TrainArguments training;
-    training.threads = omp_get_max_threads();
+    training.threads = 0;
     CLI::App* train = app.add_subcommand("train", "Train an ensemble on a database");
     train->add_option("database", training.database, "Database of runs (HDF5)")
         ->required();
@@ -42,9 +44,10 @@ int main(int argc, char** argv) {
     train->add_option("--from", training.from,
                       "Emulator of fewer inputs to go on from (JSON); layers and neurons "
                       "stay its own");
-    train->add_option("--threads", training.threads, "Members trained at once")
-        ->check(CLI::PositiveNumber)
-        ->capture_default_str();
+    train
+        ->add_option("--threads", training.threads,
+                     "Members trained at once (0, the default: one a processor)")
+        ->check(taylorcal::threads_problem);
 
     std::string model, database;
     CLI::App* validate = app.add_subcommand(
@@ -60,14 +63,17 @@ int main(int argc, char** argv) {
     predict->add_option("--set", prediction.set, "One point: name=value, repeated");
     predict->add_option("--category", prediction.category, "The point's category value");
 
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 1;
-    }
-    return taylorcal::guarded_main("emulator", [&] {
-        if (train->parsed()) return emulator::train(training);
-        if (validate->parsed()) return emulator::validate(model, database);
-        return emulator::predict(prediction);
-    });
+    if (const auto status = taylorcal::parse_command(app, argc, argv)) return *status;
+    if (training.threads == 0) training.threads = omp_get_max_threads();
+    if (train->parsed()) return emulator::train(training);
+    if (validate->parsed()) return emulator::validate(model, database);
+    return emulator::predict(prediction);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    spdlog::set_default_logger(spdlog::stderr_color_mt("emulator"));
+    spdlog::set_pattern("%n: %v");
+    return taylorcal::guarded_main("emulator", [=] { return run(argc, argv); });
 }

@@ -1,4 +1,5 @@
 #include "common/errors.hpp"
+#include "common/parse_command.hpp"
 #include "common/program_code.hpp"
 #include "solver/commands/batch.hpp"
 #include "solver/commands/effects.hpp"
@@ -28,12 +29,7 @@ int run(int argc, char** argv) {
     add_plate(app);
     add_parameters(app);
     add_effects(app);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 1;
-    }
-    return 0;
+    return taylorcal::parse_command(app, argc, argv).value_or(0);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "solver/commands/batch.hpp"
 
-#include "common/errors.hpp"
+#include "common/atomic_file.hpp"
+#include "common/option_text.hpp"
 #include "common/program_code.hpp"
 #include "common/progress.hpp"
 #include "common/sha256.hpp"
@@ -154,8 +155,10 @@ void add_batch(CLI::App& app) {
         ->add_option("--rows", options->rows,
                      "first:last rows of the design, from 0, last excluded")
         ->capture_default_str();
-    command->add_option("--threads", options->threads,
-                        "threads (default: one a processor)");
+    command
+        ->add_option("--threads", options->threads,
+                     "threads (0, the default: one a processor)")
+        ->check(threads_problem);
     command
         ->add_option("--cache", options->cache,
                      "folder of finished runs that studies share: looked up and added to")
@@ -166,8 +169,7 @@ void add_batch(CLI::App& app) {
         "  solver batch design.h5 --config solver.json --rows 0:50 --out chunk_0.h5\n"
         "A batch that was killed goes on where it was when it is started again.");
     command->callback([options] {
-        require(options->threads >= 0,
-                fmt::format("--threads {} (expected 1 or more).", options->threads));
+        require_writable(options->out, {options->design, options->configuration});
         const Configuration configuration = read_configuration(options->configuration);
         const Design whole = read_design(options->design);
         const Design design = whole.subset(parse_rows(options->rows, whole.rows()));

@@ -3,6 +3,7 @@
 #include "common/atomic_file.hpp"
 #include "common/errors.hpp"
 #include "common/nearest_word.hpp"
+#include "common/option_text.hpp"
 #include "solver/commands/run_file.hpp"
 #include "solver/commands/run_table.hpp"
 #include "solver/commands/shot.hpp"
@@ -13,6 +14,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <limits>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -36,6 +38,9 @@ struct RunOptions {
     double snapshot_interval_us = 5;
     bool json = false;
 };
+
+/// JSON and HDF5 keep seeds with a sign.
+constexpr std::uint64_t most_seed = std::numeric_limits<std::int64_t>::max();
 
 const char* const samples = R"(Sample runs:
   solver run --shape truncated_cone --velocity 120
@@ -113,12 +118,12 @@ std::int64_t peak_memory() {
 }
 
 void run(const RunOptions& options) {
+    if (!options.out.empty()) require_writable(options.out, {options.configuration});
     const Configuration configuration = configuration_of(options);
     impact::ImpactCase impact_case =
         make_case(options.shot, configuration, "command line");
     require(options.until_us >= 0 && options.until_us <= 1e4,
             fmt::format("--until-us {} (expected 0 to 10000).", options.until_us));
-    if (!options.out.empty()) require_writable(options.out, {options.configuration});
     impact_case.run_until_s = 1e-6 * options.until_us;
 
     require(options.snapshot_interval_us >= 0.01,
@@ -174,10 +179,14 @@ void add_run(CLI::App& app) {
         ->add_option("--temperature-K", options->shot.initial_temperature_K,
                      "initial temperature [K]")
         ->capture_default_str();
-    command->add_option("--geometry", options->geometry,
-                        "axisymmetric or 3d (over solver.json's)");
-    command->add_option("--fidelity", options->fidelity,
-                        "coarse, standard or fine (over solver.json's)");
+    command
+        ->add_option("--geometry", options->geometry,
+                     "axisymmetric or 3d (over solver.json's)")
+        ->check(empty_problem);
+    command
+        ->add_option("--fidelity", options->fidelity,
+                     "coarse, standard or fine (over solver.json's)")
+        ->check(empty_problem);
     command
         ->add_option("--set", options->settings,
                      "name=value of a material parameter or an effect, see `solver "
@@ -191,13 +200,18 @@ void add_run(CLI::App& app) {
                      "hourglass; may be repeated")
         ->allow_extra_args(false);
     command->add_option("--seed", options->shot.seed, "of the grain orientations")
+        ->check([](const std::string& text) { return count_problem(text, most_seed); })
         ->capture_default_str();
     command->add_option("--until-us", options->until_us,
                         "stop at this time [us] instead of with the rear");
-    command->add_option("--out", options->out,
-                        "HDF5 file of sizes, history, outline and fields");
-    command->add_option("--snapshots", options->snapshots,
-                        "folder for the fields on the way, as ParaView opens them");
+    command
+        ->add_option("--out", options->out,
+                     "HDF5 file of sizes, history, outline and fields")
+        ->check(empty_problem);
+    command
+        ->add_option("--snapshots", options->snapshots,
+                     "folder for the fields on the way, as ParaView opens them")
+        ->check(empty_problem);
     command
         ->add_option("--every-us", options->snapshot_interval_us,
                      "time between snapshots [us]")

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <string_view>
+#include <utility>
 
 #include <fmt/core.h>
 #include <fmt/ranges.h>
@@ -20,7 +22,69 @@ struct Record {
     std::size_t line;
 };
 
-/// Splits a whole text into records (RFC 4180); lines without any text are skipped.
+/// How many bytes belong to the character that starts at `position`; 0 unless they are
+/// UTF-8.
+std::size_t character_length(std::string_view text, std::size_t position) {
+    const auto byte = [&](std::size_t i) {
+        return position + i < text.size() ? static_cast<unsigned char>(text[position + i])
+                                          : 0U;
+    };
+    const unsigned first = byte(0), second = byte(1);
+    if (first < 0x80) return 1;
+    if (first < 0xC2 || first > 0xF4) return 0;
+    const std::size_t length = first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
+    // Longer forms than needed, surrogates, and what is beyond the last code point.
+    if ((first == 0xE0 && second < 0xA0) || (first == 0xED && second > 0x9F) ||
+        (first == 0xF0 && second < 0x90) || (first == 0xF4 && second > 0x8F))
+        return 0;
+    for (std::size_t i = 1; i < length; ++i)
+        if ((byte(i) & 0xC0U) != 0x80) return 0;
+    return length;
+}
+
+/// Whether a line ends with the character at `position`; CR LF ends one line.
+bool ends_line(std::string_view text, std::size_t position) {
+    return text[position] == '\n' ||
+           (text[position] == '\r' && text.substr(position + 1, 1) != "\n");
+}
+
+void require_utf8(const std::string& text, const std::string& file) {
+    std::size_t line = 1;
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t length = character_length(text, at);
+        if (length == 0)
+            throw InputError(fmt::format(
+                "{}, line {}: the byte 0x{:02X} is not UTF-8. Save the table as \"CSV "
+                "UTF-8\".",
+                file, line, static_cast<unsigned char>(text[at])));
+        if (ends_line(text, at)) ++line;
+        at += length;
+    }
+}
+
+/// The text with names in place of blanks that look like a space or like nothing.
+std::string shown(std::string text) {
+    const std::pair<std::string_view, std::string_view> blanks[] = {
+        {"\u00A0", "<no-break space>"},
+        {"\u202F", "<narrow no-break space>"},
+        {"\u2007", "<figure space>"},
+        {"\u2009", "<thin space>"},
+        {"\u200B", "<zero-width space>"}};
+    for (const auto& [blank, name] : blanks)
+        for (std::size_t at = text.find(blank); at != std::string::npos;
+             at = text.find(blank, at))
+            text.replace(at, blank.size(), name);
+    return text;
+}
+
+std::string trimmed(const std::string& cell) {
+    constexpr const char* blanks = " \t\r\n";
+    const std::size_t first = cell.find_first_not_of(blanks);
+    if (first == std::string::npos) return "";
+    return cell.substr(first, cell.find_last_not_of(blanks) - first + 1);
+}
+
+/// Splits a whole text into records (RFC 4180); those without any text are skipped.
 class RecordSplitter {
   public:
     RecordSplitter(const std::string& text, std::string file)
@@ -45,14 +109,14 @@ class RecordSplitter {
             more = at(',');
             if (more) ++position_;
         }
-        if (at('\r')) ++position_;
-        require(position_ == text_.size() || at('\n'),
+        require(position_ == text_.size() || at('\n') || at('\r'),
                 fmt::format("{}, line {}: text after a closing quote. Double the quotes "
                             "inside a quoted cell.",
                             file_, line_));
-        if (at('\n')) ++line_;
-        ++position_;
-        const bool blank = record.cells.size() == 1 && record.cells.front().empty();
+        if (at('\r')) ++position_;
+        if (at('\n')) ++position_;
+        ++line_;
+        const bool blank = std::ranges::all_of(record.cells, &std::string::empty);
         if (!blank) records_.push_back(std::move(record));
     }
 
@@ -61,9 +125,7 @@ class RecordSplitter {
             std::min(text_.find_first_of(",\r\n", position_), text_.size());
         const std::string cell = text_.substr(position_, end - position_);
         position_ = end;
-        const std::size_t first = cell.find_first_not_of(" \t");
-        if (first == std::string::npos) return "";
-        return cell.substr(first, cell.find_last_not_of(" \t") - first + 1);
+        return trimmed(cell);
     }
 
     std::string quoted_cell() {
@@ -72,9 +134,9 @@ class RecordSplitter {
         for (++position_; position_ < text_.size(); ++position_) {
             if (at('"')) {
                 ++position_;
-                if (!at('"')) return cell;
+                if (!at('"')) return trimmed(cell);
             }
-            if (at('\n')) ++line_;
+            if (ends_line(text_, position_)) ++line_;
             cell += text_[position_];
         }
         throw InputError(fmt::format(
@@ -97,6 +159,7 @@ class RecordSplitter {
 
 CsvTable CsvTable::from_file(const std::filesystem::path& path) {
     const std::string text = read_text(path);
+    require_utf8(text, path.string());
     std::vector<Record> records = RecordSplitter(text, path.string()).split();
     require(!records.empty(),
             fmt::format("{}: the table is empty. Its first line must name the columns.",
@@ -132,13 +195,17 @@ bool CsvTable::has(const std::string& column) const {
     return std::ranges::find(columns_, column) != columns_.end();
 }
 
+std::string CsvTable::place(std::size_t row) const {
+    return fmt::format("{}, line {}", path_.string(), lines_.at(row));
+}
+
 std::size_t CsvTable::index(const std::string& column) const {
     const auto found = std::ranges::find(columns_, column);
     if (found == columns_.end()) {
         throw InputError(fmt::format(
             "{}: column \"{}\" is missing{}. The columns are: {}.", path_.string(),
             column, nearest_hint(column, columns_, " (is \"", "\" meant?)"),
-            fmt::join(columns_, ", ")));
+            shown(fmt::format("{}", fmt::join(columns_, ", ")))));
     }
     return static_cast<std::size_t>(found - columns_.begin());
 }
@@ -161,9 +228,8 @@ std::optional<double> CsvTable::number(std::size_t row, const std::string& colum
 
 void CsvTable::fail(std::size_t row, const std::string& column,
                     const std::string& problem) const {
-    throw InputError(fmt::format("{}, line {}, column {}: value \"{}\" {}",
-                                 path_.string(), lines_.at(row), column,
-                                 has(column) ? text(row, column) : "", problem));
+    throw InputError(fmt::format("{}, column {}: value \"{}\" {}", place(row), column,
+                                 has(column) ? shown(text(row, column)) : "", problem));
 }
 
 }  // namespace taylorcal

@@ -2,7 +2,12 @@
 #include "common/hdf5_file.hpp"
 #include "common/hdf5_handle.hpp"
 
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+
 #include <fmt/core.h>
+#include <unistd.h>
 
 namespace taylorcal {
 
@@ -10,6 +15,22 @@ namespace {
 
 [[noreturn]] void fail(const std::filesystem::path& path, const std::string& problem) {
     throw InputError(fmt::format("{}: {}", path.string(), problem));
+}
+
+/// Why nothing can be read at `path`; empty if it can, whether or not it is HDF5.
+std::string unreadable(const std::filesystem::path& path) {
+    std::error_code problem;
+    const std::filesystem::file_status status = std::filesystem::status(path, problem);
+    if (status.type() == std::filesystem::file_type::not_found)
+        return "no such file. Check the name, or make the file first.";
+    if (std::filesystem::is_directory(status))
+        return "it is a folder (expected an HDF5 file). Give a file in it.";
+    if (::access(path.c_str(), R_OK) != 0)
+        return fmt::format("cannot be read ({}). Ask for the right to read it.",
+                           std::strerror(errno));
+    if (!std::filesystem::is_regular_file(status))
+        return "it is a device, pipe or socket (expected an HDF5 file).";
+    return "";
 }
 
 std::vector<hsize_t> shape_of(hid_t space) {
@@ -133,9 +154,8 @@ struct Attribute {
 
 Hdf5Reader::Hdf5Reader(std::filesystem::path path) : path_(std::move(path)) {
     silence_hdf5();
-    if (!std::filesystem::is_regular_file(path_)) {
-        fail(path_, "no such file. Check the name, or make the file first.");
-    }
+    const std::string obstacle = unreadable(path_);
+    if (!obstacle.empty()) fail(path_, obstacle);
     const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
     file_ = H5Fopen(path_.c_str(), H5F_ACC_RDONLY, access);

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include <catch2/catch.hpp>
+#include <unistd.h>
 
 namespace fs = std::filesystem;
 using Catch::Matchers::Contains;
@@ -77,6 +78,20 @@ TEST_CASE("a truncated or foreign file is refused with the remedy", "[hdf5]") {
                                                        Contains("truncated") &&
                                                        Contains("make it again"));
     CHECK_THROWS_WITH(Hdf5Reader(folder / "absent.h5"), Contains("no such file"));
+}
+
+TEST_CASE("a file that cannot be read is not called damaged", "[hdf5]") {
+    const testing::TemporaryFolder folder;
+    write_sample(folder / "a.h5");
+    CHECK_THROWS_WITH(Hdf5Reader(folder.path()), Contains("it is a folder"));
+    fs::permissions(folder.path(), fs::perms::all);
+    fs::permissions(folder / "a.h5", fs::perms::none);
+    // The superuser may read everything: access() asks for the real user.
+    const ::uid_t self = ::getuid(), nobody = 65534;
+    if (self == 0) REQUIRE(::setresuid(nobody, nobody, 0) == 0);
+    CHECK_THROWS_WITH(Hdf5Reader(folder / "a.h5"),
+                      Contains("a.h5: cannot be read (Permission denied)"));
+    if (self == 0) REQUIRE(::setresuid(0, 0, 0) == 0);
 }
 
 TEST_CASE("an HDF5 file of another kind is named", "[hdf5]") {

@@ -23,7 +23,7 @@ impact::ImpactCase make_case(const Shot& shot, const Configuration& configuratio
     require_range(where, "initial_length_mm", shot.initial_length_mm, 0.1, 1000);
     require_range(where, "length_to_diameter",
                   shot.initial_length_mm / shot.initial_diameter_mm, 0.5, 50);
-    require_range(where, "initial_temperature_K", shot.initial_temperature_K, 1, 1300);
+    require_range(where, "initial_temperature_K", shot.initial_temperature_K, 50, 1300);
 
     constexpr double mm = 1e-3;
     impact::ImpactCase impact_case;

@@ -1,10 +1,12 @@
 #include "solver/commands/finished_run.hpp"
 
+#include "common/errors.hpp"
 #include "solver/observe/outline.hpp"
 
 #include <cmath>
 #include <limits>
 
+#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 namespace taylorcal::commands {
@@ -18,8 +20,12 @@ std::vector<double> finite_or_nan(std::vector<double> values) {
     return values;
 }
 
-/// JSON has no NaN: it is written as null.
-std::vector<double> numbers_or_nan(const nlohmann::json& list) {
+/// The list of `count` numbers under a key. JSON has no NaN: it is written as null.
+std::vector<double> numbers_or_nan(const nlohmann::json& line, const std::string& key,
+                                   std::size_t count) {
+    const nlohmann::json& list = line.at(key);
+    require(list.is_array() && list.size() == count,
+            fmt::format("{} has {} entries (expected {})", key, list.size(), count));
     std::vector<double> values;
     for (const auto& entry : list)
         values.push_back(entry.is_null() ? nan : entry.get<double>());
@@ -69,11 +75,15 @@ nlohmann::json to_json(const FinishedRun& run) {
 FinishedRun run_from_json(const nlohmann::json& line) {
     FinishedRun run;
     run.run_id = line.at("run_id").get<std::int64_t>();
-    run.status = static_cast<impact::Status>(line.at("status").get<int>());
+    const int status = line.at("status").get<int>();
+    require(status >= 0 && status <= static_cast<int>(impact::Status::over_cpu_limit),
+            fmt::format("status = {} (expected 0 to 3)", status));
+    run.status = static_cast<impact::Status>(status);
     run.reason = line.at("reason").get<std::string>();
-    run.outputs = numbers_or_nan(line.at("outputs"));
-    run.descriptors = numbers_or_nan(line.at("descriptors"));
-    run.outline_radius = numbers_or_nan(line.at("outline_radius"));
+    run.outputs = numbers_or_nan(line, "outputs", observe::size_names().size());
+    run.descriptors =
+        numbers_or_nan(line, "descriptors", impact::descriptor_names().size());
+    run.outline_radius = numbers_or_nan(line, "outline_radius", observe::outline_points);
     run.steps = line.at("steps").get<std::int64_t>();
     run.grain_updates = line.at("grain_updates").get<std::int64_t>();
     run.cpu_s = line.at("cpu_s").get<double>();

@@ -33,7 +33,7 @@ FinishedRun row_of(std::int64_t run_id, const impact::ImpactResult& result);
 FinishedRun failed_row(std::int64_t run_id, const std::string& reason);
 
 nlohmann::json to_json(const FinishedRun& run);
-/// Throws nlohmann::json::exception when `line` is not such a row.
+/// Throws nlohmann::json::exception or InputError when `line` is not such a row.
 FinishedRun run_from_json(const nlohmann::json& line);
 
 }  // namespace taylorcal::commands

@@ -82,7 +82,7 @@ void Journal::read_lines(const std::string& text, const nlohmann::json& header) 
         try {
             const auto parsed = nlohmann::json::parse(line);
             if (number > 1)
-                found_.push_back(run_from_json(parsed));
+                found_.push_back(run_of(parsed, number));
             else
                 require(parsed == header,
                         fmt::format("{}: begun by another batch ({}). Delete it to start "
@@ -93,6 +93,16 @@ void Journal::read_lines(const std::string& text, const nlohmann::json& header) 
                 "{}, line {}: damaged. Delete the file to start the batch anew.",
                 path_.string(), number));
         }
+    }
+}
+
+FinishedRun Journal::run_of(const nlohmann::json& parsed, int number) const {
+    try {
+        return run_from_json(parsed);
+    } catch (const InputError& error) {
+        throw InputError(fmt::format(
+            "{}, line {}: damaged ({}). Delete the file to start the batch anew.",
+            path_.string(), number, error.what()));
     }
 }
 

@@ -41,6 +41,8 @@ class Journal {
     };
     void open();
     void append_line(const std::string& line);
+    /// A line after the first. InputError that names it when it is not a whole run.
+    FinishedRun run_of(const nlohmann::json& parsed, int number) const;
     void read_lines(const std::string& text, const nlohmann::json& header);
     std::filesystem::path path_;
     std::vector<FinishedRun> found_;

@@ -124,6 +124,8 @@ std::optional<FinishedRun> RunCache::found(std::size_t row) const {
         return cached;
     } catch (const nlohmann::json::exception&) {
         return std::nullopt;
+    } catch (const InputError&) {
+        return std::nullopt;
     }
 }
 

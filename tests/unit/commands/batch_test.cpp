@@ -91,6 +91,17 @@ TEST_CASE("a journal of another batch is refused with the remedy", "[batch]") {
         write_text_atomically(path, journal + "garbage\n{}");
         CHECK_THROWS_WITH(batch.run("other.h5", 1), Contains("line 6: damaged"));
     }
+    SECTION("a run without all of its outputs") {
+        std::string less = journal;
+        const std::string key = "\"outputs\":[";
+        const std::size_t place = less.rfind(key) + key.size();
+        less.erase(place, less.find(',', place) + 1 - place);
+        write_text_atomically(path, less);
+        CHECK_THROWS_WITH(
+            batch.run("other.h5", 1),
+            Contains("other.h5.journal.jsonl, line 5: damaged (outputs has 6 "
+                     "entries (expected 7))"));
+    }
     CHECK(std::filesystem::exists(path));
 }
 

@@ -24,17 +24,9 @@ bool is_effect(const std::string& name) {
 }
 
 void check_input_names(const Design& design, const std::string& where) {
-    std::vector<std::string> known = shot_inputs;
-    for (const auto& info : material::parameter_list()) known.push_back(info.name);
-    for (const std::string& name : effects::effect_names()) known.push_back(name);
     std::set<std::string> seen;
     for (const std::string& name : design.input_names) {
-        if (std::find(known.begin(), known.end(), name) == known.end()) {
-            throw InputError(fmt::format(
-                "{}: input \"{}\" is unknown{}. Inputs are {} and the names that "
-                "\"solver parameters\" and \"solver effects\" list.",
-                where, name, nearest_hint(name, known), fmt::join(shot_inputs, ", ")));
-        }
+        require_known_input(name, where);
         require(
             seen.insert(name).second,
             fmt::format("{}: input \"{}\" occurs twice. Keep one column.", where, name));
@@ -73,6 +65,17 @@ std::size_t parse_index(const std::string& text, const std::string& rows) {
 }
 
 }  // namespace
+
+void require_known_input(const std::string& name, const std::string& where) {
+    std::vector<std::string> known = shot_inputs;
+    for (const auto& info : material::parameter_list()) known.push_back(info.name);
+    for (const std::string& effect : effects::effect_names()) known.push_back(effect);
+    if (std::find(known.begin(), known.end(), name) != known.end()) return;
+    throw InputError(fmt::format(
+        "{}: input \"{}\" is unknown{}. Inputs are {} and the names that \"solver "
+        "parameters\" and \"solver effects\" list.",
+        where, name, nearest_hint(name, known), fmt::join(shot_inputs, ", ")));
+}
 
 Design Design::subset(const std::vector<std::size_t>& rows) const {
     Design part;

@@ -29,6 +29,9 @@ struct Design {
 /// InputError when malformed or empty.
 std::vector<std::size_t> parse_rows(const std::string& text, std::size_t count);
 
+/// InputError that begins with `where` unless a design may have an input of this name.
+void require_known_input(const std::string& name, const std::string& where);
+
 /// Reads the datasets that a design and a database share. InputError when their lengths
 /// differ, an input or shape is unknown, a run_id occurs twice, or there is no row.
 Design read_design_tables(const Hdf5Reader& file, const std::filesystem::path& path);

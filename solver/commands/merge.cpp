@@ -54,6 +54,7 @@ nlohmann::json joined(const std::vector<nlohmann::json>& records) {
 
 Database merge(const std::vector<std::string>& paths,
                const std::vector<std::string>& zero_inputs) {
+    for (const std::string& name : zero_inputs) require_known_input(name, "--zero-input");
     Database whole;
     std::map<std::int64_t, std::string> owner;
     std::vector<nlohmann::json> records;
@@ -103,8 +104,8 @@ void add_merge(CLI::App& app) {
         "  solver merge chunk_0.h5 chunk_1.h5 --out database.h5\n"
         "  solver merge old.h5 chunk_0.h5 --zero-input anvil_friction --out new.h5");
     command->callback([options] {
-        write_database(options->out, merge(options->chunks, options->zero_inputs));
         require_writable(options->out);
+        write_database(options->out, merge(options->chunks, options->zero_inputs));
     });
 }
 

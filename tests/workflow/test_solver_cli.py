@@ -148,6 +148,11 @@ def test_a_run_that_loses_its_energy_balance_has_failed(solver, quick):
         (["--fidelity", "finest"], ["finest", "fine"]),
         (["--diameter-cm", "1"], ["--diameter-cm"]),
         (["nothing.json"], ["nothing.json", "No such file"]),
+        (["--seed", "-1"], ["--seed: -1", "0 to 9223372036854775807"]),
+        (["--seed", "99999999999999999999"], ["--seed: 99999999999999999999"]),
+        (["--out", ""], ["--out: is empty"]),
+        (["--geometry", ""], ["--geometry: is empty"]),
+        (["--temperature-K", "20"], ["initial_temperature_K = 20", "50 to 1300"]),
     ],
 )
 def test_run_refuses_with_the_place_and_the_remedy(solver, arguments, words):
@@ -282,6 +287,43 @@ def test_design_is_validated(solver, quick, changes, words):
     assert sorted(path.name for path in quick.iterdir()) == ["design.h5", "solver.json"]
 
 
+def test_batch_does_not_replace_its_own_design(solver, quick):
+    path = write_design(quick / "design.h5", [60.0])
+    before = path.read_bytes()
+    done = solver("batch", "design.h5", "--config", "solver.json", "--out", "./design.h5")
+    assert done.returncode == 1
+    assert "./design.h5: is an input of this command" in done.stderr
+    assert path.read_bytes() == before
+
+
+def test_an_output_without_a_place_is_told_before_the_computation(solver, quick):
+    """The inputs are wrong as well, and would be told of first."""
+    (quick / "folder").mkdir()
+    write_design(quick / "design.h5", [60.0])
+    for command in (["run", "--velocity", -5], ["point", "no.json"], ["plate", "no.json"],
+                    ["batch", "no.h5"], ["merge", "no.h5"]):  # fmt: skip
+        for out, words in [("absent/out", "no folder absent"), ("folder", "it is a folder")]:
+            done = solver(*command, "--out", out)
+            assert done.returncode == 1
+            assert f"{out}: cannot be written" in done.stderr and words in done.stderr
+
+
+@pytest.mark.parametrize("command", [["parameters"], ["effects", "--json"], ["--help"]])
+def test_results_that_cannot_be_printed_are_an_error(program, command):
+    for target in (">/dev/full", ">&-"):
+        shell = ["sh", "-c", f'"$@" {target}', "sh", program("solver"), *command]
+        done = subprocess.run(shell, capture_output=True, text=True, timeout=60)
+        assert done.returncode == 2
+        assert "standard output: not all of the results could be written" in done.stderr
+
+
+@pytest.mark.parametrize("threads", ["-1", "1025", "100000", "9999999999999999999999", "two"])
+def test_threads_have_bounds(solver, threads):
+    done = solver("batch", "design.h5", "--out", "out.h5", "--threads", threads)
+    assert done.returncode == 1
+    assert f"--threads: {threads} (expected a whole number from 0 to 1024" in done.stderr
+
+
 def test_truncated_design_is_refused(solver, quick):
     path = write_design(quick / "design.h5", np.linspace(40, 90, 50))
     path.write_bytes(path.read_bytes()[: path.stat().st_size // 2])
@@ -304,6 +346,8 @@ def test_chunks_merge_to_the_whole(solver, quick):
     assert (quick / "merged.h5.cost.csv").read_text().count("\n") == 5
     done = solver("merge", "a.h5", "a.h5", "--out", "twice.h5")
     assert done.returncode == 1 and "Give each chunk its own rows" in done.stderr
+    done = solver("merge", "b.h5", "a.h5", "--zero-input", "foo", "--out", "zero.h5")
+    assert done.returncode == 1 and '--zero-input: input "foo" is unknown' in done.stderr
     done = solver(*batch, "c.h5", "--rows", "2:9")
     assert done.returncode == 1 and "0:4" in done.stderr
 
@@ -329,6 +373,8 @@ def test_help_ends_with_sample_runs(solver, command):
 
 def test_wrong_use_exits_with_one(solver):
     assert solver().returncode == 1
-    assert solver("fly").returncode == 1
+    done = solver("fly")
+    assert done.returncode == 1
+    assert done.stderr.startswith('solver: "fly" is no subcommand')
     assert solver("run").returncode == 1
     assert solver("--version").stdout.startswith("solver 0.")

@@ -48,6 +48,20 @@ std::vector<std::size_t> nearest_levels(const RowMatrix& plain,
     return found;
 }
 
+/// A table of points, each with a finite number in every column.
+RowMatrix points_from(const Hdf5Reader& file, const std::filesystem::path& path,
+                      const std::string& name, std::size_t columns) {
+    RowMatrix points = file.matrix(name);
+    require(points.rows() > 0 && points.cols() == static_cast<Eigen::Index>(columns) &&
+                points.allFinite(),
+            fmt::format("{}: \"{}\" is {} x {}{} (expected at least one row of {} finite "
+                        "numbers). Sample again.",
+                        path.string(), name, points.rows(), points.cols(),
+                        points.allFinite() ? "" : ", with numbers that are not finite",
+                        columns));
+    return points;
+}
+
 RowMatrix to_units(const RowMatrix& plain, const ParameterSpace& space) {
     RowMatrix units(plain.rows(), static_cast<Eigen::Index>(space.size()));
     for (Eigen::Index i = 0; i < units.rows(); ++i)
@@ -126,13 +140,16 @@ StoredPosterior read_posterior(const std::filesystem::path& path,
                     "Sample again.",
                     path.string()));
     StoredPosterior stored;
-    stored.draws = file.matrix("draws");
-    stored.maxima = file.matrix("maxima");
+    stored.draws = points_from(file, path, "draws", expected.size());
+    stored.maxima = points_from(file, path, "maxima", expected.size());
     stored.units = to_units(stored.draws, space);
     stored.maxima_units = to_units(stored.maxima, space);
     stored.levels = nearest_levels(stored.draws, levels);
     stored.maxima_levels = nearest_levels(stored.maxima, levels);
     std::vector<double> reference = file.numbers("reference");
+    require(reference.size() == space.size(),
+            fmt::format("{}: \"reference\" has {} numbers (expected {}). Sample again.",
+                        path.string(), reference.size(), space.size()));
     stored.reference =
         to_units(Eigen::Map<RowMatrix>(reference.data(), 1,
                                        static_cast<Eigen::Index>(reference.size())),

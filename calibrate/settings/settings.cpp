@@ -110,7 +110,7 @@ std::optional<UnexplainedSpread> read_spread(const JsonReader& reader) {
     const bool rising = std::adjacent_find(spread.grid.begin(), spread.grid.end(),
                                            [](double a, double b) { return a >= b; }) ==
                         spread.grid.end();
-    if (spread.grid.empty() || !rising || spread.grid.front() < 0)
+    if (spread.grid.empty() || !rising || spread.grid.front() != 0)
         entry.fail("grid",
                    "must hold rising relative spreads from 0, for instance "
                    "[0, 0.005, 0.01, 0.02, 0.04].");

@@ -112,6 +112,27 @@ TEST_CASE("a posterior of another configuration is refused", "[files]") {
                       Contains("offset[three]"));
 }
 
+TEST_CASE("a posterior without draws, or with one that is no number, is refused",
+          "[files]") {
+    const LineCase c(0);
+    const ParameterSpace space = c.space();
+    const SpreadLevels levels = spread_levels(c.settings);
+    const toys::TemporaryFile file("posterior.h5");
+    PosteriorResult result = c.sample(space, 1);
+    const auto columns = result.posterior.kept.units.cols();
+    const auto complaint = [&] {
+        write_posterior(file.path(), result, space, levels, c.settings);
+        return read_posterior(file.path(), space, levels, c.settings);
+    };
+    result.posterior.kept.units(1, 0) = std::nan("");
+    CHECK_THROWS_WITH(complaint(), Contains("posterior.h5: \"draws\" is ") &&
+                                       Contains("not finite") &&
+                                       Contains("Sample again"));
+    result.posterior.kept.units.resize(0, columns);
+    result.posterior.kept.levels.clear();
+    CHECK_THROWS_WITH(complaint(), Contains("\"draws\" is 0 x "));
+}
+
 TEST_CASE("a model that is right fits within its errors", "[comparison]") {
     const nlohmann::json found = LineCase(0).compare();
     CHECK(found["misfit"]["calibrate"]["n"] == 20);

@@ -92,6 +92,10 @@ TEST_CASE("bad settings are refused with the key's name", "[settings]") {
         bad["unexplained_spread"]["grid"] = {0.02, 0.01};
         CHECK_THAT(complaint(bad), Contains("grid"));
     }
+    SECTION("a grid that does not begin at 0") {
+        bad["unexplained_spread"]["grid"] = {0.5};
+        CHECK_THAT(complaint(bad), Contains("grid must hold rising"));
+    }
     SECTION("no parameters") {
         bad["parameters"] = json::array();
         CHECK_THAT(complaint(bad), Contains("parameters"));

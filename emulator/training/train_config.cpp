@@ -16,10 +16,19 @@ int integer_in(const JsonReader& reader, std::string_view key, int lowest, int h
     return static_cast<int>(reader.integer(key, default_value));
 }
 
+/// Refuses a name that an earlier entry of the list has.
+template <typename Choice>
+void require_new(const JsonReader& entry, const std::string& name,
+                 const std::vector<Choice>& earlier) {
+    if (std::ranges::find(earlier, name, &Choice::name) != earlier.end())
+        entry.fail("name", "= \"" + name + "\" is given twice. Keep one of them.");
+}
+
 std::vector<InputChoice> read_inputs(const JsonReader& reader) {
     std::vector<InputChoice> inputs;
     for (const JsonReader& input : reader.objects("inputs")) {
         input.only({"name", "transform"});
+        require_new(input, input.text("name"), inputs);
         inputs.push_back(
             {input.text("name"),
              transform_of(input.word("transform", transform_words(), "linear"))});
@@ -34,6 +43,7 @@ std::vector<OutputChoice> read_outputs(const JsonReader& reader,
     for (const JsonReader& output : reader.objects("outputs")) {
         output.only({"name", "divide_by"});
         OutputChoice choice{output.text("name"), {}};
+        require_new(output, choice.name, outputs);
         if (output.has("divide_by")) choice.divide_by = output.texts("divide_by");
         for (const std::string& name : choice.divide_by) {
             if (std::ranges::find(inputs, name, &InputChoice::name) == inputs.end()) {

@@ -93,6 +93,15 @@ Eigen::MatrixXd matrix_from(const JsonReader& reader, std::string_view key) {
     return matrix;
 }
 
+/// A scale, which the network's numbers are divided or multiplied by.
+double scale_from(const JsonReader& reader) {
+    const double scale = reader.number("scale");
+    if (!(scale > 0))
+        reader.fail("scale",
+                    fmt::format("= {} (expected more than 0). Train again.", scale));
+    return scale;
+}
+
 InputInfo input_from(const JsonReader& reader) {
     InputInfo input;
     input.name = reader.text("name");
@@ -100,7 +109,7 @@ InputInfo input_from(const JsonReader& reader) {
     input.lower = reader.number("lower");
     input.upper = reader.number("upper");
     input.shift = reader.number("shift");
-    input.scale = reader.number("scale");
+    input.scale = scale_from(reader);
     input.used = reader.boolean("used", true);
     return input;
 }
@@ -120,6 +129,42 @@ Member member_from(const JsonReader& reader) {
     member.learning_rate = reader.number("learning_rate");
     member.validation_rms = reader.number("validation_rms");
     return member;
+}
+
+bool has_output(const Model& model, const std::string& name) {
+    return std::ranges::find(model.outputs, name, &OutputInfo::name) !=
+           model.outputs.end();
+}
+
+/// One row and one column for each of its outputs, all of them the model's.
+Covariance covariance_from(const JsonReader& reader, const Model& model) {
+    Covariance covariance{reader.texts("outputs"), matrix_from(reader, "matrix")};
+    const auto count = static_cast<Eigen::Index>(covariance.outputs.size());
+    if (covariance.matrix.rows() != count || covariance.matrix.cols() != count)
+        reader.fail("matrix", fmt::format("is {} x {} (expected {} x {}, as there are "
+                                          "outputs). Train again.",
+                                          covariance.matrix.rows(),
+                                          covariance.matrix.cols(), count, count));
+    for (const std::string& name : covariance.outputs)
+        if (!has_output(model, name))
+            reader.fail("outputs", fmt::format("names \"{}\" (expected names of the "
+                                               "network's outputs). Train again.",
+                                               name));
+    return covariance;
+}
+
+/// Held-out rows must have the network's inputs and outputs.
+void check_held_out(const Model& model, const JsonReader& reader) {
+    const auto inputs = static_cast<Eigen::Index>(used_inputs(model));
+    if (model.held_out.places.cols() != inputs)
+        reader.fail("places", fmt::format("has rows of {} numbers (expected {}, as there "
+                                          "are inputs). Train again.",
+                                          model.held_out.places.cols(), inputs));
+    const auto outputs = static_cast<Eigen::Index>(model.outputs.size());
+    if (model.held_out.errors.cols() != outputs)
+        reader.fail("errors", fmt::format("has rows of {} numbers (expected {}, as there "
+                                          "are outputs). Train again.",
+                                          model.held_out.errors.cols(), outputs));
 }
 
 /// Layers must fit to one another and to the numbers of inputs and outputs.
@@ -196,7 +241,7 @@ Model model_from_json(const json& file, const std::string& where) {
     }
     for (const JsonReader& output : reader.objects("outputs")) {
         model.outputs.push_back({output.text("name"), output.number("shift"),
-                                 output.number("scale"), output.texts("divide_by")});
+                                 scale_from(output), output.texts("divide_by")});
     }
     if (reader.has("category") && !reader.json().at("category").is_null()) {
         const JsonReader category = reader.object("category");
@@ -211,17 +256,21 @@ Model model_from_json(const json& file, const std::string& where) {
     model.validation = validation.json();
     model.validation.erase("covariance");
     model.validation.erase("held_out");
-    if (validation.has("held_out"))
+    if (validation.has("held_out")) {
         model.held_out = held_out_from(validation.object("held_out"));
     const JsonReader covariances = validation.object("covariance");
     for (const std::string& value : covariances.keys()) {
-        const JsonReader covariance = covariances.object(value);
-        model.covariances.emplace_back(
-            value,
-            Covariance{covariance.texts("outputs"), matrix_from(covariance, "matrix")});
+        check_held_out(model, validation.object("held_out"));
+    }
+        model.covariances.emplace_back(value,
+                                       covariance_from(covariances.object(value), model));
     }
     model.provenance = reader.object("provenance").json();
     check_shapes(model, reader);
+    if (model.covariances.empty())
+        validation.fail("covariance",
+                        "is empty (expected one by category value, or "
+                        "\"all\"). Train again.");
     return model;
 }
 

@@ -189,3 +189,13 @@ TEST_CASE("a damaged emulator file is refused", "[emulator]") {
     headless.erase("inputs");
     CHECK_THROWS_WITH(load(headless), Contains("inputs is missing"));
 }
+    for (const char* scale : {"/inputs/0/scale", "/outputs/1/scale"})
+        CHECK_THROWS_WITH(load(changed(scale, 0)),
+                          Contains("scale = 0 (expected more than 0)"));
+    const std::string covariance = "/validation/covariance/curved";
+    CHECK_THROWS_WITH(load(changed(covariance + "/matrix", {{1.0}})),
+                      Contains("curved.matrix is 1 x 1 (expected 2 x 2"));
+    CHECK_THROWS_WITH(load(changed(covariance + "/outputs", {"length", "width"})),
+                      Contains("curved.outputs names \"width\""));
+    CHECK_THROWS_WITH(load(changed("/validation/covariance", nlohmann::json::object())),
+                      Contains("covariance is empty"));

@@ -129,6 +129,10 @@ TEST_CASE("what cannot be learnt is refused with the place", "[training]") {
     CHECK_THROWS_WITH(refused("inputs", nlohmann::json::array()),
                       Contains("inputs is empty"));
     CHECK_THROWS_WITH(refused("outputs", {{{"name", "length"}, {"divide_by", {"mass"}}}}),
+    CHECK_THROWS_WITH(refused("inputs", {{{"name", "speed"}}, {{"name", "speed"}}}),
+                      Contains("inputs[1].name = \"speed\" is given twice"));
+    CHECK_THROWS_WITH(refused("outputs", {{{"name", "length"}}, {{"name", "length"}}}),
+                      Contains("outputs[1].name = \"length\" is given twice"));
                       Contains("outputs[0].divide_by names \"mass\""));
 }
 

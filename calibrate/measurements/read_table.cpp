@@ -122,6 +122,7 @@ std::vector<Measurement> read_sizes(const Row& row) {
 Shot read_shot(const Row& row) {
     Shot shot;
     shot.id = row.text("id");
+    shot.place = row.table.place(row.row);
     shot.lot = row.text("lot");
     shot.use = static_cast<Use>(row.word("use", use_words(), "use"));
     shot.shape = row.text("shape");

@@ -19,7 +19,8 @@ struct Measurement {
 /// One Taylor test: a row of the measurement table.
 struct Shot {
     std::string id;
-    std::string lot;  ///< stock of metal
+    std::string place;  ///< file and line, to start messages with
+    std::string lot;    ///< stock of metal
     Use use = Use::calibrate;
     std::string shape;
     double velocity_m_s = 0;

@@ -145,34 +145,44 @@ Eigen::MatrixXd NetworkPredictor::error_covariance(
     return covariance;
 }
 
+void NetworkPredictor::check_shot(const Datum& datum) const {
+    const Shot& shot = datum.shot;
+    for (const emulator::InputInfo& input : emulator_.inputs()) {
+        if (!is_shot_input(input.name)) continue;
+        const double value = shot_input(input.name, shot);
+        require(
+            is_covered(input, value),
+            fmt::format("{} = {:g} is beyond the emulator's range {:g} to {:g}. Widen "
+                        "the database's range in study.yaml, or set the shot's use to "
+                        "ignore.",
+                        input.name, value, input.lower, input.upper));
+    }
+    const auto& shapes = emulator_.category().values;
+    require(shapes.empty() ||
+                std::find(shapes.begin(), shapes.end(), shot.shape) != shapes.end(),
+            fmt::format("the emulator was not trained on the shape {}. Add the shape to "
+                        "the database in study.yaml, or set the shot's use to ignore.",
+                        shot.shape));
+    emulator_.check_shape(shot.shape);
+    const auto& known = emulator_.covariance(shot.shape).outputs;
+    for (const Eigen::Index column : datum.columns) {
+        const std::string& size = sizes_[static_cast<std::size_t>(column)];
+        require(std::find(known.begin(), known.end(), size) != known.end(),
+                fmt::format("the emulator has no {} for {}. Remove the size from "
+                            "fit_sizes, or empty the cell.",
+                            size, shot.shape));
+    }
+}
+
 void NetworkPredictor::check_ranges(const DataSet& set) const {
     for (const Datum& datum : set.data) {
-        const Shot& shot = datum.shot;
-        for (const emulator::InputInfo& input : emulator_.inputs()) {
-            if (!is_shot_input(input.name)) continue;
-            const double value = shot_input(input.name, shot);
-            require(
-                is_covered(input, value),
-                fmt::format("shot {}: {} = {:g} is beyond the emulator's range {:g} to "
-                            "{:g}. Widen the database's range in study.yaml, or set the "
-                            "shot's use to ignore.",
-                            shot.id, input.name, value, input.lower, input.upper));
-        }
-        const auto& shapes = emulator_.category().values;
-        require(
-            shapes.empty() ||
-                std::find(shapes.begin(), shapes.end(), shot.shape) != shapes.end(),
-            fmt::format("shot {}: the emulator was not trained on the shape {}. Add the "
-                        "shape to the database in study.yaml, or set the shot's use to "
-                        "ignore.",
-                        shot.id, shot.shape));
-        const auto& known = emulator_.covariance(shot.shape).outputs;
-        for (const Eigen::Index column : datum.columns) {
-            const std::string& size = sizes_[static_cast<std::size_t>(column)];
-            require(std::find(known.begin(), known.end(), size) != known.end(),
-                    fmt::format("shot {}: the emulator has no {} for {}. Remove the size "
-                                "from fit_sizes, or empty the cell.",
-                                shot.id, size, shot.shape));
+        try {
+            check_shot(datum);
+        } catch (const InputError& error) {
+            const std::string& place = datum.shot.place;
+            throw InputError(fmt::format("{}{}shot {}: {}", place,
+                                         place.empty() ? "" : ", ", datum.shot.id,
+                                         error.what()));
         }
     }
 }

@@ -47,6 +47,7 @@ class NetworkPredictor final : public Predictor {
 
   private:
     void bind_inputs(const Settings& settings);
+    void check_shot(const Datum& datum) const;
     const emulator::InputInfo& velocity() const;
 
     emulator::Emulator emulator_;

@@ -23,7 +23,9 @@ int validate(const std::filesystem::path& emulator_file,
                 emulator.check_range(inputs[i],
                                      data.inputs(row, static_cast<Eigen::Index>(i)), "");
             }
-            emulator.category_index(data.categories[static_cast<std::size_t>(row)]);
+            const auto at = static_cast<std::size_t>(row);
+            if (!data.shapes.empty()) emulator.check_shape(data.shapes[at]);
+            emulator.category_index(data.categories[at]);
             within.push_back(row);
         } catch (const InputError&) {
             continue;

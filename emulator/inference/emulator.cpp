@@ -78,6 +78,13 @@ int Emulator::output_index(const std::string& name) const {
     return index_of(name, names_of(model_.outputs), "output");
 }
 
+void Emulator::check_shape(const std::string& shape) const {
+    require(model_.only_shape.empty() || shape == model_.only_shape,
+            fmt::format("the emulator learnt from the shape {} only, and cannot tell of "
+                        "\"{}\". Add runs of that shape to the database and train again.",
+                        model_.only_shape, shape));
+}
+
 int Emulator::category_index(const std::string& value) const {
     if (model_.category.values.empty()) return 0;
     return index_of(value, model_.category.values, model_.category.name);

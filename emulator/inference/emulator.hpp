@@ -32,6 +32,8 @@ class Emulator {
     /// Positions by name; InputError with the nearest name when unknown.
     int input_index(const std::string& name) const;
     int output_index(const std::string& name) const;
+    /// InputError if the network learnt from one other shape only.
+    void check_shape(const std::string& shape) const;
     /// 0 when the emulator has no category.
     int category_index(const std::string& value) const;
 

@@ -80,6 +80,9 @@ struct Covariance {
 struct Model {
     std::vector<InputInfo> inputs;
     Category category;
+    /// Of all runs that a network without category learnt from; empty where they had
+    /// several, and in files of before.
+    std::string only_shape;
     std::vector<OutputInfo> outputs;
     std::vector<Member> members;
     std::size_t best = 0;

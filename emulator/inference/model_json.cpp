@@ -202,6 +202,7 @@ json to_json(const Model& model) {
                  {"category", nullptr},
                  {"provenance", model.provenance},
                  {"validation", model.validation}};
+    if (!model.only_shape.empty()) file["only_shape"] = model.only_shape;
     for (const InputInfo& input : model.inputs) {
         file["inputs"].push_back({{"name", input.name},
                                   {"transform", word_of(input.transform)},
@@ -247,6 +248,7 @@ Model model_from_json(const json& file, const std::string& where) {
         const JsonReader category = reader.object("category");
         model.category = {category.text("name"), category.texts("values")};
     }
+    model.only_shape = reader.text("only_shape", "");
     for (const JsonReader& member : reader.objects("members")) {
         model.members.push_back(member_from(member));
     }
@@ -258,19 +260,19 @@ Model model_from_json(const json& file, const std::string& where) {
     model.validation.erase("held_out");
     if (validation.has("held_out")) {
         model.held_out = held_out_from(validation.object("held_out"));
-    const JsonReader covariances = validation.object("covariance");
-    for (const std::string& value : covariances.keys()) {
         check_held_out(model, validation.object("held_out"));
     }
+    const JsonReader covariances = validation.object("covariance");
+    for (const std::string& value : covariances.keys()) {
         model.covariances.emplace_back(value,
                                        covariance_from(covariances.object(value), model));
     }
-    model.provenance = reader.object("provenance").json();
-    check_shapes(model, reader);
     if (model.covariances.empty())
         validation.fail("covariance",
                         "is empty (expected one by category value, or "
                         "\"all\"). Train again.");
+    model.provenance = reader.object("provenance").json();
+    check_shapes(model, reader);
     return model;
 }
 

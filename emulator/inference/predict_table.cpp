@@ -1,11 +1,15 @@
 #include "emulator/inference/predict_table.hpp"
 
 #include "common/errors.hpp"
+#include "common/nearest_word.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <set>
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 namespace taylorcal::emulator {
 
@@ -23,6 +27,33 @@ Point blank_point(const Emulator& emulator, const std::string& where) {
     return point;
 }
 
+/// What a table may call the shape that a network without category learnt from.
+const std::string shape_column = "shape";
+
+void check_columns(const Emulator& emulator, const CsvTable& table) {
+    std::vector<std::string> known;
+    for (const InputInfo& input : emulator.inputs()) known.push_back(input.name);
+    const bool has_category = !emulator.category().values.empty();
+    known.push_back(has_category ? emulator.category().name : shape_column);
+    for (const std::string& column : table.columns())
+        require(std::ranges::find(known, column) != known.end(),
+                fmt::format("{}, line 1: unknown column \"{}\"{}. Leave it out; the "
+                            "emulator takes {}.",
+                            table.file(), column,
+                            nearest_hint(column, known, " (is \"", "\" meant?)"),
+                            fmt::join(known, ", ")));
+}
+
+/// The point's category by its position. InputError for one that was not learnt from.
+int category_of(const Emulator& emulator, const Point& point) {
+    try {
+        if (!point.category.empty()) emulator.check_shape(point.category);
+        return emulator.category_index(point.category);
+    } catch (const InputError& error) {
+        throw InputError(point.where + ": " + error.what());
+    }
+}
+
 void check(const Emulator& emulator, const Point& point) {
     for (std::size_t i = 0; i < emulator.inputs().size(); ++i) {
         const InputInfo& input = emulator.inputs()[i];
@@ -38,9 +69,10 @@ void check(const Emulator& emulator, const Point& point) {
 }  // namespace
 
 std::vector<Point> points_of(const Emulator& emulator, const CsvTable& table) {
+    check_columns(emulator, table);
     std::vector<Point> points;
     for (std::size_t row = 0; row < table.rows(); ++row) {
-        Point point = blank_point(emulator, fmt::format("point {}", row + 1));
+        Point point = blank_point(emulator, table.place(row));
         for (std::size_t i = 0; i < emulator.inputs().size(); ++i) {
             const std::string& name = emulator.inputs()[i].name;
             if (!table.has(name)) continue;
@@ -49,6 +81,8 @@ std::vector<Point> points_of(const Emulator& emulator, const CsvTable& table) {
         }
         if (!emulator.category().values.empty()) {
             point.category = table.text(row, emulator.category().name);
+        } else if (table.has(shape_column)) {
+            point.category = table.text(row, shape_column);
         }
         points.push_back(std::move(point));
     }
@@ -59,6 +93,7 @@ Point point_of(const Emulator& emulator, const std::vector<std::string>& assignm
                const std::string& category) {
     Point point = blank_point(emulator, "--set");
     point.category = category;
+    std::set<std::string> given;
     for (const std::string& assignment : assignments) {
         const std::size_t equals = assignment.find('=');
         double value = 0;
@@ -69,7 +104,11 @@ Point point_of(const Emulator& emulator, const std::vector<std::string>& assignm
         require(
             has_name && problem == std::errc{} && stopped == end && std::isfinite(value),
             fmt::format("--set \"{}\" (expected name=number).", assignment));
-        point.inputs[emulator.input_index(assignment.substr(0, equals))] = value;
+        const std::string name = assignment.substr(0, equals);
+        require(given.insert(name).second,
+                fmt::format("--set {}: {} is given twice. Keep one value.", assignment,
+                            name));
+        point.inputs[emulator.input_index(name)] = value;
     }
     return point;
 }
@@ -85,7 +124,7 @@ std::string predict_table(const Emulator& emulator, const std::vector<Point>& po
     Workspace workspace;
     for (const Point& point : points) {
         check(emulator, point);
-        const int category = emulator.category_index(point.category);
+        const int category = category_of(emulator, point);
         const Block input = point.inputs.cast<float>().array();
         Block best, other;
         emulator.evaluate(input, category, best, workspace);

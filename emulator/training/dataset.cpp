@@ -49,14 +49,18 @@ Dataset read_dataset(const std::filesystem::path& path,
     const std::vector<std::string> categories =
         category.empty() ? std::vector<std::string>(ids.size(), no_category)
                          : file.texts(category);
+    const std::vector<std::string> shapes =
+        file.has("shape") ? file.texts("shape") : std::vector<std::string>();
     const std::size_t n = ids.size();
     require(status.size() == n && categories.size() == n &&
+                (shapes.empty() || shapes.size() == n) &&
                 static_cast<std::size_t>(inputs.rows()) == n &&
                 static_cast<std::size_t>(outputs.rows()) == n,
             fmt::format("{}: datasets of different lengths. Make the file again.",
                         path.string()));
     std::vector<Eigen::Index> kept;
     Dataset data;
+    data.file = path.string();
     for (std::size_t i = 0; i < n; ++i) {
         const auto row = static_cast<Eigen::Index>(i);
         if (status[i] != 0 || !outputs.row(row).array().isFinite().any()) {
@@ -71,6 +75,7 @@ Dataset read_dataset(const std::filesystem::path& path,
         kept.push_back(row);
         data.row_ids.push_back(ids[i]);
         data.categories.push_back(categories[i]);
+        if (!shapes.empty()) data.shapes.push_back(shapes[i]);
     }
     data.inputs = inputs(kept, Eigen::all);
     data.outputs = outputs(kept, Eigen::all);
@@ -95,6 +100,7 @@ Dataset with_better_runs(Dataset data, const Dataset& better, const std::string&
     data.cheaper.resize(data.row_ids.size() + better.row_ids.size(), 0);
     extend(data.row_ids, better.row_ids);
     extend(data.categories, better.categories);
+    extend(data.shapes, better.shapes);
     extend_rows(data.inputs, better.inputs);
     extend_rows(data.outputs, better.outputs);
     data.dropped_rows += better.dropped_rows;

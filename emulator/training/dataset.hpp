@@ -15,9 +15,11 @@ struct Dataset {
     std::vector<std::int64_t> row_ids;
     RowMatrix inputs;                     ///< [rows x inputs]
     std::vector<std::string> categories;  ///< One a row; all "all" when there is none.
+    std::vector<std::string> shapes;      ///< One a row, where the file has them.
     RowMatrix outputs;  ///< [rows x outputs], NaN where without meaning.
     /// By row, 1 for runs of a cheaper solver than the others; empty when all are of one.
     std::vector<float> cheaper;
+    std::string file;       ///< Starts messages.
     long dropped_rows = 0;  ///< Not finished, or without any output.
 
     Eigen::Index rows() const { return inputs.rows(); }

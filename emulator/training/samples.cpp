@@ -60,6 +60,13 @@ InputInfo describe_input(const InputChoice& choice, const Eigen::VectorXd& value
     return input;
 }
 
+/// The shape of all runs; empty if they have several, or none is told of each.
+std::string only_shape(const Dataset& data) {
+    if (data.shapes.empty() || std::ssize(data.shapes) != data.rows()) return "";
+    const auto differs = [&](const std::string& s) { return s != data.shapes.front(); };
+    return std::ranges::any_of(data.shapes, differs) ? "" : data.shapes.front();
+}
+
 }  // namespace
 
 RowMatrix divided_outputs(const Model& model, const Dataset& data) {
@@ -76,11 +83,11 @@ RowMatrix divided_outputs(const Model& model, const Dataset& data) {
 
 Model describe(const TrainConfig& config, const Dataset& data, const Split& split) {
     constexpr std::size_t fewest = 8;
-    require(split.training.size() >= fewest,
-            fmt::format(
-                "the database has {} rows to learn from after {} were dropped (expected "
-                "at least {}). Add runs.",
-                split.training.size(), data.dropped_rows, fewest));
+    require(
+        split.training.size() >= fewest,
+        fmt::format("{}: the database has {} rows to learn from after {} were dropped "
+                    "(expected at least {}). Add runs.",
+                    data.file, split.training.size(), data.dropped_rows, fewest));
     Model model;
     for (std::size_t i = 0; i < config.inputs.size(); ++i) {
         model.inputs.push_back(describe_input(
@@ -92,6 +99,7 @@ Model describe(const TrainConfig& config, const Dataset& data, const Split& spli
                                            data.categories.end());
         model.category = {config.category, {values.begin(), values.end()}};
     }
+    if (config.category.empty()) model.only_shape = only_shape(data);
     for (const OutputChoice& choice : config.outputs) {
         model.outputs.push_back({choice.name, 0, 1, choice.divide_by});
     }
@@ -103,9 +111,9 @@ Model describe(const TrainConfig& config, const Dataset& data, const Split& spli
             moments(outputs.col(static_cast<Eigen::Index>(k))(split.training));
         require(
             seen.count >= 2 && std::isfinite(seen.deviation),
-            fmt::format("output \"{}\" has {} values to learn from. Leave it out of the "
-                        "configuration.",
-                        output.name, seen.count));
+            fmt::format("{}: output \"{}\" has {} values to learn from. Leave it out of "
+                        "the configuration.",
+                        data.file, output.name, seen.count));
         output.shift = seen.mean;
         output.scale = seen.deviation > 0 ? seen.deviation : 1;
     }

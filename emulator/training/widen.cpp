@@ -67,6 +67,11 @@ void widen(Model& wider, const Model& old, const std::string& where) {
                             where, known.name));
         take_scales(*same, known, where);
     }
+    require(old.only_shape.empty() || old.only_shape == wider.only_shape,
+            fmt::format("{}: it learnt from the shape {} only (the database has {}). "
+                        "Train without --from.",
+                        where, old.only_shape,
+                        wider.only_shape.empty() ? "several" : wider.only_shape));
     const auto names = [](const Model& model) {
         std::vector<std::string> all;
         for (const OutputInfo& output : model.outputs)

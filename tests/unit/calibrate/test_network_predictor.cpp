@@ -134,6 +134,11 @@ TEST_CASE("shots beyond the network are refused", "[network]") {
                                         Contains("100 to 200") &&
                                         Contains("study.yaml") && Contains("ignore"));
     }
+    SECTION("the place in the table is told") {
+        shot.velocity_m_s = 250;
+        shot.place = "measurements.csv, line 3";
+        CHECK_THAT(complaint(shot), Contains("measurements.csv, line 3, shot a: "));
+    }
     SECTION("length/diameter") {
         shot.initial_length_mm = 80;
         CHECK_THAT(complaint(shot), Contains("length_to_diameter = 10"));
@@ -170,4 +175,25 @@ TEST_CASE("settings that the network cannot serve are refused", "[network]") {
     settings = settings_of(1e10, 1e15);
     settings.parameters[0] = {"velocity_m_s", 100, 200, false, false};
     CHECK_THROWS_WITH(NetworkPredictor(network, settings), Contains("measurement table"));
+}
+
+TEST_CASE("a network of one shape without category refuses others", "[network]") {
+    emulator::Model model = small_network();
+    Eigen::MatrixXf& weights = model.members[0].layers[0].weights;
+    weights = Eigen::MatrixXf(weights.leftCols(3));
+    model.category = {};
+    Shot cone = good_shot();
+    cone.shape = "truncated_cone";
+    const auto check = [&] {
+        const NetworkPredictor network(emulator::Emulator(model),
+                                       settings_of(1e10, 1e15));
+        network.check_ranges(data_of(cone));
+    };
+    CHECK_NOTHROW(check());  // as files of before, which do not tell their shape
+    model.only_shape = "uniform_cylinder";
+    CHECK_THROWS_WITH(check(), Contains("shot a: ") &&
+                                   Contains("the shape uniform_cylinder only") &&
+                                   Contains("\"truncated_cone\""));
+    cone.shape = "uniform_cylinder";
+    CHECK_NOTHROW(check());
 }

@@ -160,7 +160,50 @@ TEST_CASE("points are predicted from assignments", "[emulator]") {
     CHECK_THROWS_WITH(refused({"speed=100", "density=1e12"}),
                       Contains("\"size\" is missing"));
     CHECK_THROWS_WITH(refused({"speed"}), Contains("expected name=number"));
+    CHECK_THROWS_WITH(refused({"speed=100", "speed=120"}),
+                      Contains("--set speed=120: speed is given twice"));
     CHECK_THROWS_WITH(refused({"speed=fast"}), Contains("expected name=number"));
+}
+
+TEST_CASE("a network of one shape keeps its name", "[emulator]") {
+    Model model = sample_model();
+    model.category = {};
+    for (Member& member : model.members) {
+        Eigen::MatrixXf& weights = member.layers.front().weights;
+        weights = Eigen::MatrixXf(weights.leftCols(3));
+    }
+    const std::vector<std::string> whole = {"speed=100", "density=1e12", "size=6"};
+    const auto ask = [&](const std::string& shape) {
+        const Emulator emulator(model_from_json(to_json(model), "emulator.json"));
+        return predict_table(emulator, {point_of(emulator, whole, shape)});
+    };
+    CHECK_FALSE(to_json(model).contains("only_shape"));
+    const std::string answer = ask("");
+    CHECK(ask("truncated_cone") == answer);  // files of before do not tell their shape
+    model.only_shape = "uniform_cylinder";
+    CHECK(ask("") == answer);
+    CHECK(ask("uniform_cylinder") == answer);
+    CHECK_THROWS_WITH(ask("truncated_cone"), Contains("--set: ") &&
+                                                 Contains("uniform_cylinder only") &&
+                                                 Contains("\"truncated_cone\""));
+}
+
+TEST_CASE("points of a table are refused by line and column", "[emulator]") {
+    const Emulator emulator(sample_model());
+    const testing::TemporaryFolder folder;
+    const auto predict = [&](const std::string& text) {
+        write_text_atomically(folder / "points.csv", text);
+        const CsvTable table = CsvTable::from_file(folder / "points.csv");
+        return predict_table(emulator, points_of(emulator, table));
+    };
+    CHECK_NOTHROW(predict("kind,speed,density,size\nplain,100,1e12,6\n"));
+    CHECK_THROWS_WITH(predict("kind,speed,density,siz,size\nplain,100,1e12,6,6\n"),
+                      Contains("points.csv, line 1: unknown column \"siz\"") &&
+                          Contains("\"size\" meant?"));
+    CHECK_THROWS_WITH(predict("kind,speed,density,size\n\nplain,400,1e12,6\n"),
+                      Contains("points.csv, line 3: speed = 400"));
+    CHECK_THROWS_WITH(predict("kind,speed,density,size\ncone,100,1e12,6\n"),
+                      Contains("points.csv, line 2: the emulator has no kind \"cone\""));
 }
 
 TEST_CASE("a damaged emulator file is refused", "[emulator]") {
@@ -185,10 +228,6 @@ TEST_CASE("a damaged emulator file is refused", "[emulator]") {
                       Contains("members[0].layers[1].weights"));
     CHECK_THROWS_WITH(load(changed("/category/values", {"curved"})),
                       Contains("do not fit together"));
-    nlohmann::json headless = good;
-    headless.erase("inputs");
-    CHECK_THROWS_WITH(load(headless), Contains("inputs is missing"));
-}
     for (const char* scale : {"/inputs/0/scale", "/outputs/1/scale"})
         CHECK_THROWS_WITH(load(changed(scale, 0)),
                           Contains("scale = 0 (expected more than 0)"));
@@ -199,3 +238,7 @@ TEST_CASE("a damaged emulator file is refused", "[emulator]") {
                       Contains("curved.outputs names \"width\""));
     CHECK_THROWS_WITH(load(changed("/validation/covariance", nlohmann::json::object())),
                       Contains("covariance is empty"));
+    nlohmann::json headless = good;
+    headless.erase("inputs");
+    CHECK_THROWS_WITH(load(headless), Contains("inputs is missing"));
+}

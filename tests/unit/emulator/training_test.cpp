@@ -114,7 +114,8 @@ TEST_CASE("what cannot be learnt is refused with the place", "[training]") {
                       Contains("database.h5") && Contains("\"speed\" meant?"));
     CHECK_THROWS_WITH(read_dataset(folder / "database.h5", {"speed"}, "", {"width"}),
                       Contains("\"outputs\" has no column \"width\""));
-    CHECK_THROWS_WITH(train_sample(5, testing::sample_config(), 1), Contains("Add runs"));
+    CHECK_THROWS_WITH(train_sample(5, testing::sample_config(), 1),
+                      Contains("database.h5: ") && Contains("Add runs"));
 
     const auto refused = [](const std::string& key, const nlohmann::json& value) {
         nlohmann::json settings = testing::sample_config();
@@ -128,12 +129,31 @@ TEST_CASE("what cannot be learnt is refused with the place", "[training]") {
                       Contains("learning_rates holds -1"));
     CHECK_THROWS_WITH(refused("inputs", nlohmann::json::array()),
                       Contains("inputs is empty"));
-    CHECK_THROWS_WITH(refused("outputs", {{{"name", "length"}, {"divide_by", {"mass"}}}}),
     CHECK_THROWS_WITH(refused("inputs", {{{"name", "speed"}}, {{"name", "speed"}}}),
                       Contains("inputs[1].name = \"speed\" is given twice"));
     CHECK_THROWS_WITH(refused("outputs", {{{"name", "length"}}, {{"name", "length"}}}),
                       Contains("outputs[1].name = \"length\" is given twice"));
+    CHECK_THROWS_WITH(refused("outputs", {{{"name", "length"}, {"divide_by", {"mass"}}}}),
                       Contains("outputs[0].divide_by names \"mass\""));
+}
+
+TEST_CASE("a network without category knows the one shape of its runs", "[training]") {
+    const testing::TemporaryFolder folder;
+    testing::write_sample_database(folder / "database.h5", 60);
+    nlohmann::json settings = testing::sample_config();
+    settings["epochs"] = 1;
+    const auto shape_after = [&](const std::string& last_shape) {
+        Dataset data = testing::read_sample_database(folder / "database.h5");
+        data.shapes.assign(data.row_ids.size(), "uniform_cylinder");
+        data.shapes.back() = last_shape;
+        return train_emulator(train_config_from_json(settings, "train.json"), data, 1)
+            .only_shape;
+    };
+    CHECK(shape_after("uniform_cylinder").empty());  // the category tells
+    settings["category"] = nullptr;
+    CHECK(shape_after("uniform_cylinder") == "uniform_cylinder");
+    CHECK(shape_after("truncated_cone").empty());
+    CHECK(train_sample(60, settings, 1).only_shape.empty());
 }
 
 TEST_CASE("the decay of weights is a setting", "[training]") {

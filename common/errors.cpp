@@ -21,17 +21,18 @@ void fill_closed_streams() {
         if (::fcntl(stream, F_GETFD) < 0) ::open("/dev/null", O_RDONLY);
 }
 
+/// The message of an error after which standard output is known to be incomplete.
+std::string unprinted(const std::string& reason) {
+    return "standard output: not all of the results could be written (" + reason +
+           "). Make room or give another place, and start again.";
+}
+
+/// Throws unless all that was printed has left the program; std::cout prints to stdout.
 void require_printed() {
     errno = 0;
-    std::cout.flush();
-    const bool whole =
-        std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good();
-    if (whole) return;
-    const std::string reason = errno == 0 ? "" : std::string(", ") + std::strerror(errno);
-    throw std::runtime_error("standard output: not all of the results could be written" +
-                             reason +
-                             ". Make room or give another place, and start "
-                             "again.");
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
+    throw std::runtime_error(errno == 0 ? "an earlier write failed"
+                                        : std::strerror(errno));
 }
 
 }  // namespace
@@ -47,7 +48,9 @@ int guarded_main(const std::string& program, const std::function<int()>& body) {
         std::cerr << program << ": " << error.what() << '\n';
         return 1;
     } catch (const std::exception& error) {
-        std::cerr << program << ": " << error.what() << '\n';
+        const bool printed = std::ferror(stdout) == 0;
+        std::cerr << program << ": " << (printed ? error.what() : unprinted(error.what()))
+                  << '\n';
         return 2;
     }
 }

@@ -10,7 +10,7 @@ sys.path.insert(0, str(Path(workflow.basedir) / "workflow" / "scripts"))
 
 from code_digest import code_of
 from cost.dry_run import tell_cost_in_dry_run
-from effects import check_effects, solver_list
+from effects import check_effects, check_material, solver_list
 from input_errors import InputError
 from measurements import check_against_study, read_measurements
 from outlines.table import check_outlines
@@ -41,6 +41,7 @@ def study_of(home):
     name, inside = split_home(home)
     try:
         study = load_study(name)
+        check_material(study, EXPERIMENTS / name / "study.yaml")
         table = EXPERIMENTS / name / study["measurements"]
         rows = read_measurements(table)
         check_against_study(rows, study, table)

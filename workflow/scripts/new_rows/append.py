@@ -6,7 +6,8 @@ from pathlib import Path
 
 from atomic_file import written_whole
 from input_errors import InputError
-from measurements import read_cells, read_measurements
+from measurements import read_measurements
+from table_cells import read_cells
 
 
 def arranged(path: Path, header: list[str], cells: list[str]) -> list[str]:

@@ -10,8 +10,8 @@ import h5py
 
 from input_errors import InputError
 from json_file import read_json
-from measurements import read_cells
 from shot_inputs import SHOT_INPUTS
+from table_cells import read_cells
 
 CALIBRATE = Path("build/bin/calibrate")
 NEEDED = ("emulator.json", "posterior.h5", "config/calibrate.json")

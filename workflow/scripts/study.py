@@ -4,16 +4,18 @@ Each stage gets only the settings that concern it, so that a change of the sampl
 settings leaves the database and the network as they are.
 """
 
+import re
 from pathlib import Path
 
 from contradictions import contradictions, not_finite
-from input_errors import InputError
+from input_errors import InputError, did_you_mean
 from schema_check import fill_defaults, findings, load_schema
 from shot_inputs import SHOT_INPUTS
 from size_kinds import OUTLINE_SCORES, is_radial
 from yaml_lines import placed, read_yaml
 
 EXPERIMENTS = Path("experiments")
+NAME = re.compile("[A-Za-z][A-Za-z0-9_]*")  # --config makes a number of 2024 and 1e3
 LENGTH = ["initial_diameter_mm", "length_to_diameter"]
 DIAMETER = ["initial_diameter_mm"]
 FIDELITIES = ["coarse", "standard", "fine"]
@@ -25,11 +27,24 @@ RUNS_OF_A_PART = 1_000_000
 
 def load_study(name: str, experiments: Path = EXPERIMENTS) -> dict:
     """The validated content of experiments/<name>/study.yaml with its defaults."""
+    if not NAME.fullmatch(str(name)):
+        raise InputError(
+            f"study = {name} (expected a folder of {experiments}/ with a name of letters, digits "
+            f"and _ that begins with a letter). {_hint(name, experiments)}"
+        )
     path = experiments / name / "study.yaml"
     if not path.exists():
-        known = sorted(folder.parent.name for folder in experiments.glob("*/study.yaml"))
-        raise InputError(f"{path}: there is no such study. Known here: {', '.join(known)}.")
+        raise InputError(f"{path}: there is no such study. {_hint(name, experiments)}")
     return read_study(path)
+
+
+def name_of_study(given: str) -> str:
+    """As a shell completes it, experiments/tiny/ is the study tiny."""
+    return given.removeprefix("./").removeprefix(f"{EXPERIMENTS}/").rstrip("/")
+
+
+def _hint(name: str, experiments: Path) -> str:
+    return did_you_mean(name, [folder.parent.name for folder in experiments.glob("*/study.yaml")])
 
 
 def read_study(path: Path) -> dict:

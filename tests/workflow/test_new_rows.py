@@ -66,15 +66,15 @@ def test_the_command_appends_and_a_dry_run_does_not(studied):
 
 
 def test_a_typo_is_refused_with_its_deviation_and_the_table_stays(studied):
-    typo = GOOD.replace("19.56", "1.956")
+    typo = GOOD.replace("19.56", "4.956")
     told = add_rows(studied, text=typo)
     assert told.returncode == 1 and "Traceback" not in told.stdout
-    assert "new.csv, line 2: b2: final_length_mm = 1.956 is " in told.stdout
+    assert "new.csv, line 2: b2: final_length_mm = 4.956 is " in told.stdout
     assert "standard errors from the model" in told.stdout
     assert (studied.study / "measurements.csv").read_text() == TABLE
     told = add_rows(studied, "--accept-outliers", text=typo)
     assert told.returncode == 0, told.stdout
-    assert (studied.study / "measurements.csv").read_text().count("1.956,") == 1
+    assert (studied.study / "measurements.csv").read_text().count("4.956,") == 1
 
 
 def test_predictions_are_those_of_calibrate_compare(studied):
@@ -100,7 +100,7 @@ def test_a_shot_far_off_gets_a_warning_and_joins(studied):
 
 
 def test_a_new_lot_is_compared_with_the_nearest_known_one(studied):
-    addition = examined(studied, GOOD.replace("second", "third").replace("19.56", "1.956"))
+    addition = examined(studied, GOOD.replace("second", "third").replace("19.56", "4.956"))
     assert addition.shots[0].prediction.stand_in in ("first", "second")
     text = addition_words(addition)
     assert "lot 'third' is new" in text and "a slip of the pen?" in text

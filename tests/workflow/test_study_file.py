@@ -79,8 +79,10 @@ def test_every_fault_is_told_at_once(tmp_path):
 
 def test_an_unknown_study_names_the_known_ones(tmp_path):
     write_study(tmp_path / "copper")
-    with pytest.raises(InputError, match="Known here: copper"):
+    with pytest.raises(InputError, match="Did you mean 'copper'"):
         load_study("coper", tmp_path)
+    with pytest.raises(InputError, match="Known here: copper"):
+        load_study("steel", tmp_path)
 
 
 @pytest.mark.parametrize("name", ["copper_measured", "paper_design"])

@@ -10,8 +10,8 @@ sys.path.insert(0, str(Path(workflow.basedir) / "workflow" / "scripts"))
 
 from code_digest import code_of
 from cost.dry_run import tell_cost_in_dry_run
-from effects import check_effects, solver_list
-from input_errors import InputError
+from effects import check_effects, check_material, solver_list
+from input_errors import InputError, did_you_mean
 from measurements import check_against_study, read_measurements
 from outlines.table import check_outlines
 from revisions import HOME, homes_of, previous_home, split_home
@@ -21,6 +21,12 @@ from study import chunk_count, design_settings, further_design_settings, load_st
 from study import uses_outlines
 
 min_version("7.21")
+
+for key in set(config) - {"study", "run_cache"}:
+    hint = did_you_mean(key, ["study", "run_cache"])
+    raise WorkflowError(f"--config {key}={config[key]}: is not a known key. {hint}")
+# A name such as 2024 comes as a number, and is refused with the others.
+config["study"] = str(config["study"])
 
 use_run_cache(config["run_cache"])
 
@@ -41,6 +47,7 @@ def study_of(home):
     name, inside = split_home(home)
     try:
         study = load_study(name)
+        check_material(study, EXPERIMENTS / name / "study.yaml")
         table = EXPERIMENTS / name / study["measurements"]
         rows = read_measurements(table)
         check_against_study(rows, study, table)

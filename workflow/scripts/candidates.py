@@ -24,7 +24,7 @@ def candidates(study: dict, effects: dict[str, dict], parameters: dict[str, dict
 def typical_amplitudes(study: dict, effects: dict[str, dict]) -> dict[str, float]:
     """The amplitude of a plain signature run by candidate; a constant moves by its scale."""
     typical = {entry["name"]: entry["typical"] for entry in _effects_to_try(study, effects)}
-    constants = _priors_of_constants()
+    constants = known_constants()
     return typical | {
         name: constants[name]["prior"]["scale"] for name in _constant_names(study, constants)
     }
@@ -48,7 +48,8 @@ def _of_effect(entry: dict) -> dict:
     return {**kept, "kind": "effect", "base": 0.0}
 
 
-def _priors_of_constants() -> dict[str, dict]:
+def known_constants() -> dict[str, dict]:
+    """Priors and ranges of the constants that may be wrong, by name."""
     return yaml.safe_load(CONSTANTS.read_text(encoding="utf-8"))
 
 
@@ -63,7 +64,7 @@ def _constant_names(study: dict, constants: dict) -> list[str]:
 
 
 def _constants_to_try(study: dict, parameters: dict[str, dict]) -> list[dict]:
-    constants = _priors_of_constants()
+    constants = known_constants()
     entries = []
     for name in _constant_names(study, constants):
         entry = {key: parameters[name][key] for key in ("name", "symbol", "unit", "description")}

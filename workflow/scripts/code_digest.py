@@ -19,7 +19,8 @@ PROGRAMS = Path("build") / "bin"
 SCRIPTS = Path(__file__).resolve().parent
 # These only check what a user wrote, or word errors: what they make of it reaches a stage as its
 # settings, which are noted themselves.
-CHECKS = {"input_errors.py", "schema_check.py", "stage_log.py", "study.py", "yaml_lines.py"}
+CHECKS = {"contradictions.py", "input_errors.py", "schema_check.py", "stage_log.py", "study.py"}
+CHECKS |= {"yaml_lines.py"}
 NOTE = re.compile(r"code of (\S+): ([0-9a-f]{16})")
 
 

@@ -11,6 +11,10 @@ def read_json(path: str | Path, schema: str | None = None) -> dict:
     """InputError when the file is not JSON, or of another schema than is read here."""
     try:
         content = json.loads(Path(path).read_text(encoding="utf-8"))
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read ({error.strerror}).") from error
+    except UnicodeDecodeError as error:
+        raise InputError(f"{path}: is not text. Delete the file and run again.") from error
     except json.JSONDecodeError as error:
         problem = f"{path}, line {error.lineno}: {error.msg} (expected JSON)."
         raise InputError(f"{problem} Delete the file and run again.") from error

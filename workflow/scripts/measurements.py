@@ -1,29 +1,41 @@
 """Reads and checks a table of measured shots; messages name the file, line and column."""
 
-import csv
-import io
-import math
 from pathlib import Path
 
 from input_errors import InputError
+from new_rows.repeats import repeats_within
 from schema_check import fill_defaults, findings, load_schema
+from shape_names import shape_problem
 from shot_inputs import SHOT_INPUTS
 from size_kinds import OUTLINE_SCORES
 from study import database_parts
+from table_cells import number_in, read_cells
 
-SEPARATORS = {",": "comma", ";": "semicolon", "\t": "tab"}
 FAR_OFF = 5  # standard errors from which a size is a slip of the pen
+SHORTEST = 0.1  # of the initial length: less is in another unit
+SMALLEST_SD, LARGEST_SD = 1e-6, 0.5  # shares of what is measured
 
 
 def read_measurements(path: Path) -> list[dict]:
     """The rows with numbers as floats, empty cells left out and `line` added."""
     header, records = read_cells(path, "one row a shot")
-    return checked_rows(path, header, records)
+    rows = checked_rows(path, header, records)
+    problems = [f"{path}, {problem}" for problem in repeats_within(rows)]
+    if problems:
+        raise InputError("\n".join(problems))
+    return rows
 
 
 def checked_rows(path: Path, header: list[str], records: list[tuple[int, list[str]]]) -> list[dict]:
     """The same of cells that were read from `path` already, as `read_cells` gives them."""
     schema = load_schema("measurements")
+    if not set(header) & set(schema["properties"]):
+        raise InputError(
+            f"{path}, line 1: {', '.join(header[:4])} ... names no column (expected a header: "
+            f"{', '.join(schema['required'])}, and sizes). Write it above the rows."
+        )
+    if "" in header:
+        raise InputError(f"{path}, line 1: a column has no name. Name it or drop it.")
     problems = [
         f"{path}, line 1: column {key[0]} {text}"
         for key, text in findings({name: None for name in header}, _header_schema(schema))
@@ -92,47 +104,6 @@ def _beyond_part(row: dict, part: dict) -> list[str]:
     return found
 
 
-def read_cells(path: Path, rows: str) -> tuple[list[str], list[tuple[int, list[str]]]]:
-    """The header and (line, cells) of each row; `rows` says in messages what a row is."""
-    return split_cells(path, read_text(path, "utf-8-sig"), ",", rows)
-
-
-def read_text(path: Path, encoding: str) -> str:
-    """The text with its line ends as they are."""
-    try:
-        with path.open(newline="", encoding=encoding) as file:
-            return file.read()
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read ({error.strerror}).") from error
-    except UnicodeDecodeError as error:
-        raise InputError(f"{path}: is not text in UTF-8: {error}.") from error
-
-
-def split_cells(
-    path: Path, text: str, separator: str, rows: str
-) -> tuple[list[str], list[tuple[int, list[str]]]]:
-    """As `read_cells`, of the text of `path` with cells between separators."""
-    name = SEPARATORS[separator]
-    try:
-        reader = csv.reader(io.StringIO(text, newline=""), delimiter=separator, strict=True)
-        table = [(reader.line_num, cells) for cells in reader if any(cells)]
-    except csv.Error as error:
-        raise InputError(f"{path}: is not a {name}-separated table: {error}.") from error
-    if not table:
-        raise InputError(f"{path}: the table is empty (expected a header and {rows}).")
-    header = [name.strip() for name in table[0][1]]
-    for column in header:
-        if header.count(column) > 1:
-            raise InputError(f"{path}, line 1: column {column!r} is there twice.")
-    for line, cells in table[1:]:
-        if len(cells) != len(header):
-            raise InputError(
-                f"{path}, line {line}: {len(cells)} cells (expected {len(header)}, as in the "
-                f"header). Put a text with {name}s in quotes, and write decimal points."
-            )
-    return header, table[1:]
-
-
 def _header_schema(schema: dict) -> dict:
     """The names alone: which columns may and which must be there."""
     names = {name: {} for name in schema["properties"]}
@@ -144,19 +115,15 @@ def _header_schema(schema: dict) -> dict:
 def _typed(cells: dict[str, str], schema: dict) -> tuple[dict, list[tuple[str, str]]]:
     row, wrong = {}, []
     for column, cell in cells.items():
-        text = cell.strip()
-        if not text:
+        if not cell:
             continue
         if schema["properties"][column].get("type") != "number":
-            row[column] = text
+            row[column] = cell
             continue
-        try:
-            row[column] = float(text)
-        except ValueError:
-            row[column] = math.nan
-        if not math.isfinite(row[column]):
+        row[column] = number_in(cell)
+        if row[column] is None:
             unit = schema["properties"][column]["unit"]
-            wrong.append((column, f"= {text!r} (expected a number in {unit})."))
+            wrong.append((column, f"= {cell!r} (expected a number in {unit}, as 12.5)."))
     return row, wrong
 
 
@@ -167,10 +134,29 @@ def _impossible(row: dict) -> list[tuple[str, str]]:
     for name in ("final_length_mm", "undeformed_length_mm", "head_length_mm", "rear_length_mm"):
         if name in row and row[name] > length + FAR_OFF * row[f"{name}_sd"]:
             found.append((name, f"= {row[name]:g} is more than initial_length_mm = {length:g}."))
+    if row.get("final_length_mm", length) < SHORTEST * length:
+        problem = f"is less than {SHORTEST:g} of initial_length_mm = {length:g}. Is it in mm?"
+        found.append(("final_length_mm", f"= {row['final_length_mm']:g} {problem}"))
     name = "impact_diameter_mm"
     if row["shape"] == "uniform_cylinder" and name in row:
         if row[name] < diameter - FAR_OFF * row[f"{name}_sd"]:
             found.append(
                 (name, f"= {row[name]:g} is less than initial_diameter_mm = {diameter:g}.")
             )
+    problem = shape_problem(row["shape"])
+    found += [("shape", f"= {row['shape']!r}: {problem}")] if problem else []
+    return found + _impossible_errors(row)
+
+
+def _impossible_errors(row: dict) -> list[tuple[str, str]]:
+    """Standard errors that are in another unit, or in percent."""
+    found = []
+    measured_as = {name: name.replace("_sd", "") for name in row if "_sd" in name}
+    for name, measured in measured_as.items():
+        # The part that kept its diameter may have any length from 0.
+        of = "initial_length_mm" if measured == "undeformed_length_mm" else measured
+        lowest, highest = SMALLEST_SD * row.get(of, 0), LARGEST_SD * row.get(of, row[name] * 2)
+        if not lowest <= row[name] <= highest:
+            problem = f"(expected {lowest:.2g} to {highest:.4g}, shares of {of} = {row[of]:g})."
+            found.append((name, f"= {row[name]:g} {problem} Is it in percent, or another unit?"))
     return found

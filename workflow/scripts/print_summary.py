@@ -4,9 +4,11 @@
 """
 
 import argparse
-import json
+import sys
 from pathlib import Path
 
+from input_errors import InputError
+from json_file import read_json
 from misfit_by_size import misfit_by_size
 
 MOST_FINDINGS = 5
@@ -14,8 +16,10 @@ USE_WORDS = {"calibrate": "fitted", "validate": "held back"}
 
 
 def summary(results: Path) -> str:
-    comparison = json.loads((results / "comparison.json").read_text(encoding="utf-8"))
-    settings = json.loads((results / "config" / "report.json").read_text(encoding="utf-8"))
+    if not (results / "comparison.json").exists():
+        raise InputError(f"{results}: holds no comparison.json (expected the results of a study).")
+    comparison = read_json(results / "comparison.json")
+    settings = read_json(results / "config" / "report.json")
     lines = [settings["title"] + (" (synthetic data)" if settings["synthetic"] else ""), ""]
     width = max(len(entry["name"]) for entry in comparison["parameters"])
     lines.append(f"{'calibrated parameter':<{width}}  {'median':>10}  95 % interval")
@@ -42,4 +46,7 @@ def summary(results: Path) -> str:
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("results", type=Path, help="folder of the study's results")
-    print(summary(parser.parse_args().results))
+    try:
+        print(summary(parser.parse_args().results))
+    except InputError as error:
+        sys.exit(f"print_summary.py: {error}")

@@ -8,7 +8,20 @@ import yaml
 from input_errors import did_you_mean
 
 UNIT_WORDS = set("m mm cm km um nm in inch ft s ms us min h K C F degC kg g m2 m3 per".split())
+# JSON schemas take 24.0 for a whole number; the programs do not.
+_whole = jsonschema.Draft202012Validator.TYPE_CHECKER.redefine(
+    "integer", lambda _, value: isinstance(value, int) and not isinstance(value, bool)
+)
+_Validator = jsonschema.validators.extend(jsonschema.Draft202012Validator, type_checker=_whole)
 SCHEMAS = Path(__file__).resolve().parent.parent / "schemas"
+
+
+PATTERN_WORDS = {
+    "^[A-Za-z0-9_.-]+$": "letters a to z, digits, points, - and _, without spaces",
+    "^[a-z0-9_]+$": "small letters a to z, digits and _, without spaces",
+    "\\.csv$": "the name of a file that ends in .csv",
+    "^all$": "all, or a list of names",
+}
 
 
 def load_schema(name: str) -> dict:
@@ -35,9 +48,8 @@ def _resolve(schema: dict, root: dict) -> dict:
 
 def findings(value: dict, schema: dict) -> list[tuple[tuple, str]]:
     """(path of the key, what is wrong with it) for each violation."""
-    validator = jsonschema.Draft202012Validator(schema)
     found = []
-    for error in validator.iter_errors(value):
+    for error in _Validator(schema).iter_errors(value):
         found.extend(_worded(error))
     return found
 
@@ -67,8 +79,12 @@ def _worded(error) -> list[tuple[tuple, str]]:
     if rule == "pattern" and "words" in error.schema:
         hint = did_you_mean(given, error.schema["words"])
         return [(path, f"= {given!r} is not a known word. {hint} {error.schema['words_note']}")]
+    if rule == "pattern":
+        expected = PATTERN_WORDS.get(error.validator_value, f"text like {error.validator_value}")
+        return [(path, f"= {given!r} (expected {expected}).")]
     if rule == "type":
-        return [(path, f"= {given!r} (expected {_type_name(error)}).{_text_hint(given)}")]
+        hint = _quotes_hint(given, error.validator_value) or _text_hint(given)
+        return [(path, f"= {given!r} (expected {_type_name(error)}).{hint}")]
     if rule == "uniqueItems":
         twice = next(item for item in given if given.count(item) > 1)
         return [(path, f"holds {twice!r} twice. Keep one.")]
@@ -121,6 +137,11 @@ def _type_name(error) -> str:
 def _unit(schema: dict) -> str:
     unit = schema.get("unit", "none")
     return "" if unit == "none" else f" {unit}"
+
+
+def _quotes_hint(given, wanted: str | list[str]) -> str:
+    """A heading such as 2020 is a number to YAML."""
+    return " Put it in quotes." if wanted == "string" and isinstance(given, int | float) else ""
 
 
 def _text_hint(given) -> str:

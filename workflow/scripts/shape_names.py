@@ -8,7 +8,9 @@ length. The solver reads the same names (common/specimen_names.cpp).
 import re
 
 PAPER_SHAPES = ["uniform_cylinder", "reduced_head_4mm", "reduced_head_3mm", "truncated_cone"]
-USUAL_DIAMETER = 8  # [mm]
+USUAL_DIAMETER, USUAL_LENGTH = 8, 40  # [mm], and the heads' lengths
+USUAL_HEADS = {"reduced_head": 10, "truncated_cone": 20}
+ENDS, HEADS = (0.15, 0.9), (0.05, 0.8)  # shares of diameter and length that can be computed
 BETWEEN_HEADS = 3.5 / USUAL_DIAMETER  # a head is cut as the paper's 4-mm or 3-mm one
 MM = r"_(\d+(?:\.\d+)?)mm"
 MEASURED = re.compile(rf"(reduced_head|truncated_cone){MM}(?:_by{MM})?(?:_of{MM}_by{MM})?")
@@ -16,6 +18,27 @@ MEASURED = re.compile(rf"(reduced_head|truncated_cone){MM}(?:_by{MM})?(?:_of{MM}
 
 def is_shape(name: str) -> bool:
     return name in PAPER_SHAPES or MEASURED.fullmatch(name) is not None
+
+
+def shape_problem(name: str) -> str:
+    """Why the solver has no such shape (its shape_names.cpp), or an empty text."""
+    measured = MEASURED.fullmatch(name)
+    if name in PAPER_SHAPES or not measured:
+        return ""
+    end, head, diameter, length = (float(mm) if mm else None for mm in measured.groups()[1:])
+    diameter = USUAL_DIAMETER if diameter is None else diameter
+    length = USUAL_LENGTH if length is None else length
+    if diameter <= 0 or length <= 0:
+        return f"a specimen of {diameter:g} mm by {length:g} mm (expected measures above 0)."
+    head = USUAL_HEADS[measured[1]] if head is None else head
+    parts = [("end's diameter", end, diameter, ENDS), ("head's length", head, length, HEADS)]
+    for what, part, whole, (lowest, highest) in parts:
+        if not lowest <= part / whole <= highest:
+            return (
+                f"the {what} is {part:g} mm of the specimen's {whole:g} mm (expected "
+                f"{lowest * whole:.4g} to {highest * whole:.4g} mm). Check the name's measures."
+            )
+    return ""
 
 
 def in_words(shape: str) -> str:

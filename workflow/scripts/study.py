@@ -4,15 +4,18 @@ Each stage gets only the settings that concern it, so that a change of the sampl
 settings leaves the database and the network as they are.
 """
 
+import re
 from pathlib import Path
 
-from input_errors import InputError
+from contradictions import contradictions, not_finite
+from input_errors import InputError, did_you_mean
 from schema_check import fill_defaults, findings, load_schema
 from shot_inputs import SHOT_INPUTS
 from size_kinds import OUTLINE_SCORES, is_radial
-from yaml_lines import read_yaml
+from yaml_lines import placed, read_yaml
 
 EXPERIMENTS = Path("experiments")
+NAME = re.compile("[A-Za-z][A-Za-z0-9_]*")  # --config makes a number of 2024 and 1e3
 LENGTH = ["initial_diameter_mm", "length_to_diameter"]
 DIAMETER = ["initial_diameter_mm"]
 FIDELITIES = ["coarse", "standard", "fine"]
@@ -24,21 +27,35 @@ RUNS_OF_A_PART = 1_000_000
 
 def load_study(name: str, experiments: Path = EXPERIMENTS) -> dict:
     """The validated content of experiments/<name>/study.yaml with its defaults."""
+    if not NAME.fullmatch(str(name)):
+        raise InputError(
+            f"study = {name} (expected a folder of {experiments}/ with a name of letters, digits "
+            f"and _ that begins with a letter). {_hint(name, experiments)}"
+        )
     path = experiments / name / "study.yaml"
     if not path.exists():
-        known = sorted(folder.parent.name for folder in experiments.glob("*/study.yaml"))
-        raise InputError(f"{path}: there is no such study. Known here: {', '.join(known)}.")
+        raise InputError(f"{path}: there is no such study. {_hint(name, experiments)}")
     return read_study(path)
+
+
+def name_of_study(given: str) -> str:
+    """As a shell completes it, experiments/tiny/ is the study tiny."""
+    return given.removeprefix("./").removeprefix(f"{EXPERIMENTS}/").rstrip("/")
+
+
+def _hint(name: str, experiments: Path) -> str:
+    return did_you_mean(name, [folder.parent.name for folder in experiments.glob("*/study.yaml")])
 
 
 def read_study(path: Path) -> dict:
     given, lines = read_yaml(path)
     schema = load_schema("study")
-    found = findings(given, schema)
+    found = not_finite(given) + findings(given, schema)
     study = fill_defaults(given, schema, schema) if not found else given
-    found = found or _contradictions(study)
+    found = found or contradictions(study)
     if found:
-        raise InputError("\n".join(sorted(_placed(path, lines, *item) for item in found)))
+        places = [placed(path, lines, *item) for item in found]
+        raise InputError("\n".join(sorted(dict.fromkeys(places))))
     study["database"].setdefault("runs_per_effect", max(4, study["database"]["runs"] // 4))
     study["emulator"].setdefault("epochs_of_revision", -(-study["emulator"]["epochs"] // 3))
     return at_revision(study, [])
@@ -49,71 +66,6 @@ def at_revision(study: dict, effects: list[dict]) -> dict:
     says of each effect that is in; none is in the base.
     """
     return {**study, "revision": effects}
-
-
-def _placed(path: Path, lines: dict, key: tuple, problem: str) -> str:
-    """<file>, line n: <key> <problem>; a missing key gets the line of its group."""
-    here = key
-    while here and here not in lines:
-        here = here[:-1]
-    line = f", line {lines[here]}" if here else ""
-    return f"{path}{line}: {'.'.join(map(str, key))} {problem}"
-
-
-def _contradictions(study: dict) -> list[tuple[tuple, str]]:
-    """What a schema cannot say: values that do not fit each other."""
-    found = []
-    parts = [((), study["database"])]
-    parts += [(("further", n), part) for n, part in enumerate(study["database"]["further"])]
-    for place, part in parts:
-        for key in set(SHOT_INPUTS) & set(part):
-            lowest, highest = part[key]
-            if lowest > highest:
-                problem = f"= [{lowest}, {highest}] (expected the lowest value first)."
-                found.append((("database", *place, key), problem))
-    own = set(SHOT_INPUTS) | {"shapes"}
-    if study["database"]["better"] and any(own & set(p) for p in study["database"]["further"]):
-        problem = "has no runs of the better solver. Widen the ranges of the database itself."
-        found.append((("database", "further"), problem))
-    for name, parameter in study["parameters"].items():
-        key = ("parameters", name)
-        if parameter["lower"] >= parameter["upper"]:
-            limits = f"{parameter['lower']} to {parameter['upper']}"
-            found.append((key, f"has the range {limits} (expected lower < upper)."))
-        if parameter["prior"] == "log_uniform" and parameter["lower"] <= 0:
-            found.append((key, "has prior log_uniform from 0 (expected lower > 0)."))
-    found += _uncovered_priors(study)
-    better = study["database"]["better"]
-    if better and all(better[key] == study["solver"][key] for key in ("geometry", "fidelity")):
-        problem = "is the solver of the other runs. Choose a finer one, or leave `better` out."
-        found.append((("database", "better"), problem))
-    if study["database"]["chunks"] > study["database"]["runs"]:
-        found.append((("database", "chunks"), "is more than `runs` (expected at most as many)."))
-    for size in study["calibration"]["fit_sizes"]:
-        if size not in study["emulator"]["outputs"]:
-            problem = f"has {size!r}, which is not in emulator.outputs. Add it there."
-            found.append((("calibration", "fit_sizes"), problem))
-    if study["synthetic"] and not study["synthetic_note"]:
-        found.append((("synthetic_note",), "is missing; say how the synthetic table was made."))
-    return found
-
-
-def _uncovered_priors(study: dict) -> list[tuple[tuple, str]]:
-    """The network answers only where it has seen runs."""
-    found = []
-    for name, (lowest, highest) in study["database"]["parameters"].items():
-        key = ("database", "parameters", name)
-        if name not in study["parameters"]:
-            found.append((key, "is not calibrated (expected a name of `parameters`). Drop it."))
-            continue
-        prior = study["parameters"][name]
-        if not lowest <= prior["lower"] <= prior["upper"] <= highest:
-            limits = f"{prior['lower']} to {prior['upper']}"
-            problem = f"= [{lowest}, {highest}] does not cover the prior, {limits}. Widen it."
-            found.append((key, problem))
-        if prior["prior"] == "log_uniform" and lowest <= 0:
-            found.append((key, f"= [{lowest}, {highest}] has no logarithms (expected above 0)."))
-    return found
 
 
 def uses_outlines(study: dict) -> bool:

@@ -5,9 +5,8 @@ from dataclasses import dataclass
 from datetime import datetime, timezone
 from pathlib import Path
 
-import h5py
-
 from code_digest import NOTE
+from hdf5_file import opened
 from job_log import JobRecord, job_record
 from json_file import read_json
 from why.records import record_of
@@ -64,7 +63,7 @@ def _time(seconds: float) -> str:
 def provenance_in(path: Path) -> dict:
     """Program, version, seed, configuration and machine that a result itself names."""
     if path.suffix == ".h5":
-        with h5py.File(path) as file:
+        with opened(path) as file:
             text = file.attrs.get("provenance", "{}")
         return json.loads(text if isinstance(text, str) else text.decode())
     if path.suffix == ".json":

@@ -1,12 +1,17 @@
 """Appends rows to a table so that it is whole at any moment, and keeps what is there."""
 
 import csv
+import fcntl
 import io
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 from atomic_file import written_whole
 from input_errors import InputError
-from measurements import read_cells, read_measurements
+from measurements import read_measurements
+from table_cells import read_cells
 
 
 def arranged(path: Path, header: list[str], cells: list[str]) -> list[str]:
@@ -32,7 +37,20 @@ def with_rows(content: bytes, rows: list[list[str]]) -> bytes:
 
 
 def append_rows(path: Path, rows: list[list[str]]) -> None:
-    """Writes the longer table beside the old one, reads it back, and puts it in its place."""
-    with written_whole(path) as partial:
+    """Writes the longer table beside the old one, reads it back, and puts it in its place: one
+    process at a time, or each would write a table without the rows of the other.
+    """
+    with _alone_in(path.parent), written_whole(path) as partial:
         partial.write_bytes(with_rows(path.read_bytes(), rows))
         read_measurements(partial)
+
+
+@contextmanager
+def _alone_in(folder: Path) -> Iterator[None]:
+    """Waits for others; the system lets go of the folder however this process ends."""
+    place = os.open(folder, os.O_RDONLY)
+    try:
+        fcntl.flock(place, fcntl.LOCK_EX)
+        yield
+    finally:
+        os.close(place)

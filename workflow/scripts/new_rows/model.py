@@ -6,12 +6,11 @@ import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
-import h5py
-
+from hdf5_file import opened
 from input_errors import InputError
 from json_file import read_json
-from measurements import read_cells
 from shot_inputs import SHOT_INPUTS
+from table_cells import read_cells
 
 CALIBRATE = Path("build/bin/calibrate")
 NEEDED = ("emulator.json", "posterior.h5", "config/calibrate.json")
@@ -49,7 +48,7 @@ def is_calibrated(home: Path) -> bool:
 
 def lots_of_posterior(home: Path) -> list[str]:
     """The lots that have parameters of their own, as in `rho_immobile_initial[first]`."""
-    with h5py.File(home / "posterior.h5") as file:
+    with opened(home / "posterior.h5") as file:
         names = [str(name) for name in file["draws"].attrs["names"]]
     return list(dict.fromkeys(name.partition("[")[2][:-1] for name in names if "[" in name))
 

@@ -4,13 +4,11 @@ import re
 from pathlib import Path
 
 from input_errors import InputError
-from measurements import read_text, split_cells
 from schema_check import load_schema
+from table_cells import Records, read_text, split_cells
 
 DECIMAL = re.compile(r"[+-]?\d+,\d+([eE][+-]?\d+)?")
 OR_THOUSANDS = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}")
-
-Records = list[tuple[int, list[str]]]
 
 
 def read_pasted(path: Path) -> tuple[list[str], Records]:

@@ -26,6 +26,23 @@ def repeats(row: dict, others: list[tuple[dict, str]]) -> tuple[list[str], list[
     return wrong, remarks
 
 
+def repeats_within(rows: list[dict]) -> list[str]:
+    """The shots in use that a table has twice, under two names: each would count twice."""
+    found, seen = [], {}
+    sizes = size_names()
+    for row in rows:
+        if row["use"] == "ignore" or not any(row.get(name) for name in sizes):
+            continue
+        key = tuple(row.get(name) for name in (*INPUTS, *sizes))
+        if key in seen:
+            found.append(
+                f"line {row['line']}: {row['id']} is the same shot as {seen[key]}: all inputs and "
+                "sizes are equal. Drop it, or set `use` to ignore."
+            )
+        seen.setdefault(key, f"{row['id']} (line {row['line']})")
+    return found
+
+
 def size_names() -> list[str]:
     """The columns of measured sizes, and that of the outline."""
     paired = load_schema("measurements")["dependentRequired"]

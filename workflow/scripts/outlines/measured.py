@@ -1,13 +1,12 @@
 """Reads a measured outline; messages name the file, the line and the remedy."""
 
-import math
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from input_errors import InputError, did_you_mean
-from measurements import read_cells
+from table_cells import number_in, read_cells
 
 COLUMNS = ["height_mm", "radius_mm", "radius_sd_mm"]
 FEWEST_DOTS = 6  # more than there are components
@@ -59,14 +58,12 @@ def _numbers(path: Path) -> tuple[dict[str, np.ndarray], list[int]]:
     values = np.empty((len(records), len(header)))
     for index, (line, cells) in enumerate(records):
         for column, cell in enumerate(cells):
-            try:
-                values[index, column] = float(cell)
-            except ValueError:
-                values[index, column] = math.nan
-            if not math.isfinite(values[index, column]):
+            value = number_in(cell)
+            if value is None:
                 raise InputError(
                     f"{path}, line {line}: {header[column]} = {cell!r} (expected a number in mm)."
                 )
+            values[index, column] = value
     return dict(zip(header, values.T, strict=True)), [line for line, _ in records]
 
 

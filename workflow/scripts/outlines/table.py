@@ -4,11 +4,12 @@ import csv
 from pathlib import Path
 
 from atomic_file import written_whole
-from measurements import read_cells, read_measurements
+from measurements import read_measurements
 from outlines.basis import OutlineBasis
 from outlines.measured import read_outline
 from outlines.projection import Projection, project
 from size_kinds import OUTLINE_SCORES
+from table_cells import read_cells
 
 # Read off the outline itself: beside its scores they would count the same dots twice.
 REPEATED = ["undeformed_length_mm", "diameter_at_0p2L0_mm"]

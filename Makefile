@@ -73,7 +73,7 @@ accuracy: build ## convergence, scatter, dissipation, bars and a random sample o
 
 # Starts from the committed runs where there are none: to compute them anew delete
 # experiments/paper_design/*.h5.
-paper-calibration: build ## the source paper's calibration, DRAWS=1e7 in minutes, 1e10 in hours
+paper-calibration: build ## the source paper's calibration, DRAWS=1e7 in minutes, 1e10 a quarter of an hour more
 	@.ci/use_committed_runs paper_design
 	$(SNAKEMAKE) --profile $(PROFILE) --cores $(JOBS) --config study=paper_design
 	$(SNAKEMAKE) --snakefile tests/verification/Snakefile --cores $(JOBS) \

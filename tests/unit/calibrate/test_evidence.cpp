@@ -39,6 +39,7 @@ LinearCase linear_case(double sd, bool per_lot) {
                            {"offset", -3, 3, false, per_lot}};
     settings.fit_sizes = {"final_length_mm", "impact_diameter_mm"};
     settings.velocity_sd_relative = 0;
+    settings.network_errors = NetworkErrors::independent;  // as in the closed form
     settings.draws = sd > 0.1 ? 40000 : 20000;
     settings.draws_per_lot = 16;
     Eigen::MatrixXd network(2, 2);

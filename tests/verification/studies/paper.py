@@ -41,14 +41,15 @@ FIELDS = [
 
 COMMENTS = [
     "",
-    "Where we differ: rates of (r, z) are those of the foot's rim averaged over 1 us, rates of 3d",
-    "are those of the lowest layer between two records of the history, which lowers peaks of some",
-    "100 ns in both. Our annihilated energy, from which grain size and weakened fraction follow, is",
-    "twice the paper's in the uniform cylinder; the paper's figures are read off maps whose place is",
-    "not stated, ours are extremes over the specimen. The mean von Mises stress is, at half the stop",
-    "time, that of the part that deforms in (r, z), and of the part that has deformed by 5 % in 3d.",
-    "Heads and cone stay cooler than stated but for the cone's tip, whose hottest particle in 3d",
-    "ends above copper's melting point (1358 K): the model does not melt.",
+    "Where we differ: rates of (r, z) are those of the foot's rim averaged over 1 us, rates of",
+    "3d are those of the lowest layer between two records of the history, which lowers peaks of",
+    "some 100 ns in both. Our annihilated energy, from which grain size and weakened fraction",
+    "follow, is twice the paper's in the uniform cylinder; the paper's figures are read off",
+    "maps whose place is not stated, ours are extremes over the specimen. The mean von Mises",
+    "stress is, at half the stop time, that of the part that deforms in (r, z), and of the part",
+    "that has deformed by 5 % in 3d. Heads and cone stay cooler than stated but for the cone's",
+    "tip, whose hottest particle in 3d ends above copper's melting point (1358 K): the model",
+    "does not melt.",
 ]
 
 

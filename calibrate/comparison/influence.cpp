@@ -142,6 +142,7 @@ std::vector<Influence> leave_one_out(const ComparisonInputs& inputs,
                 influence_of(inputs, *block.shots[s], given_others[s]);
     }
     std::vector<Influence> all;
+    all.reserve(in_table_order.size());
     for (const auto& [shot, influence] : in_table_order) all.push_back(influence);
     return all;
 }

@@ -5,6 +5,7 @@ import signal
 import subprocess
 import sys
 import time
+from functools import partial
 
 import pytest
 from tiny_study import NEW_ROW, ROOT, TABLE, make_workspace
@@ -145,7 +146,10 @@ def test_rows_appended_at_once_are_all_kept(tmp_path):
 def test_an_interrupt_ends_the_workflow_and_leaves_no_lock(fresh):
     pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
     command = [*PROGRAM, "calibrate", "tiny", "--cores", "1"]
-    process = subprocess.Popen(command, cwd=fresh.folder, start_new_session=True, **pipes)
+    # Where tests run in the background interrupts may be ignored, which children inherit.
+    heeded = partial(signal.signal, signal.SIGINT, signal.SIG_DFL)
+    own = {"start_new_session": True, "preexec_fn": heeded}
+    process = subprocess.Popen(command, cwd=fresh.folder, **own, **pipes)
     locks = fresh.folder / ".snakemake" / "locks"
     deadline = time.monotonic() + 120
     while not (locks.exists() and len(list(locks.iterdir())) == 2):

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include <boost/locale/utf.hpp>
 #include <fmt/core.h>
 #include <fmt/ranges.h>
 
@@ -22,26 +23,6 @@ struct Record {
     std::size_t line;
 };
 
-/// How many bytes belong to the character that starts at `position`; 0 unless they are
-/// UTF-8.
-std::size_t character_length(std::string_view text, std::size_t position) {
-    const auto byte = [&](std::size_t i) {
-        return position + i < text.size() ? static_cast<unsigned char>(text[position + i])
-                                          : 0U;
-    };
-    const unsigned first = byte(0), second = byte(1);
-    if (first < 0x80) return 1;
-    if (first < 0xC2 || first > 0xF4) return 0;
-    const std::size_t length = first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
-    // Longer forms than needed, surrogates, and what is beyond the last code point.
-    if ((first == 0xE0 && second < 0xA0) || (first == 0xED && second > 0x9F) ||
-        (first == 0xF0 && second < 0x90) || (first == 0xF4 && second > 0x8F))
-        return 0;
-    for (std::size_t i = 1; i < length; ++i)
-        if ((byte(i) & 0xC0U) != 0x80) return 0;
-    return length;
-}
-
 /// Whether a line ends with the character at `position`; CR LF ends one line.
 bool ends_line(std::string_view text, std::size_t position) {
     return text[position] == '\n' ||
@@ -49,16 +30,16 @@ bool ends_line(std::string_view text, std::size_t position) {
 }
 
 void require_utf8(const std::string& text, const std::string& file) {
+    using Utf8 = boost::locale::utf::utf_traits<char>;
     std::size_t line = 1;
-    for (std::size_t at = 0; at < text.size();) {
-        const std::size_t length = character_length(text, at);
-        if (length == 0)
+    for (auto at = text.begin(); at != text.end();) {
+        const auto first = at;
+        if (!boost::locale::utf::is_valid_codepoint(Utf8::decode(at, text.end())))
             throw InputError(fmt::format(
                 "{}, line {}: the byte 0x{:02X} is not UTF-8. Save the table as \"CSV "
                 "UTF-8\".",
-                file, line, static_cast<unsigned char>(text[at])));
-        if (ends_line(text, at)) ++line;
-        at += length;
+                file, line, static_cast<unsigned char>(*first)));
+        if (ends_line(text, static_cast<std::size_t>(first - text.begin()))) ++line;
     }
 }
 

@@ -19,8 +19,8 @@ constexpr double cone_tip_radii = 4;  // of the tip: above, a cone's cells are s
 // Where a cylinder ceases to be undeformed is decided by the elastic waves that run to
 // and fro before the plastic front, and thus by all rows: tall ones in the rear smear
 // them.
-constexpr double cylinder_aspect = 0.8;        // at the foot, above its lowest rows
-constexpr double cylinder_growth = 0.05;       // a radius
+constexpr double cylinder_aspect = 0.8;  // at the foot, above its lowest rows
+constexpr double cylinder_growth = 0.05, refined_cylinder_growth = 0.02;  // a radius
 constexpr double cylinder_square_radii = 0.2;  // flat cells let the foot's rim run ahead
 // Columns of a narrow section, of those across the rear: it decides the sizes.
 constexpr double head_column_share = 3.0 / 4;
@@ -31,11 +31,11 @@ constexpr int row_samples = 2000;
 /// How a shape is cut.
 struct Division {
     double columns;  ///< across the rear, of those asked for
-    double rim;      ///< width of a head's or cone's outermost column, over the mean
+    double rim;  ///< width at a head's or cone's rim, over the mean: falls evenly to it
 };
 
 /// Refined divisions are what brings sizes to their limits within 1 % or so
-/// (tests/verification, convergence); the others take a third of the time. Narrow columns
+/// (tests/verification, convergence); the others, within 2 %, are cheaper. Narrow columns
 /// at the rim follow the foot as it spreads and cost nothing, for it is the flattened
 /// cells' height that sets their steps. Heads of other widths are cut as the nearer of
 /// the paper's two.
@@ -46,9 +46,9 @@ Division division_of(const specimen::Profile& profile, bool refined) {
     switch (profile.kind) {
         case specimen::ProfileKind::stepped:
             if (profile.end_radius > between_heads) return {refined ? 11.0 / 8 : 1, 1};
-            return refined ? Division{9.0 / 8, 0.8} : Division{1, 1};
+            return {9.0 / 8, refined ? 0.8 : 1};
         case specimen::ProfileKind::tapered:
-            return {1, refined ? 0.25 : 1};
+            return {1, refined ? 0.0 : 1};
         case specimen::ProfileKind::cylinder:
             break;
     }
@@ -62,6 +62,7 @@ struct Section {
     specimen::ProfileKind kind;        ///< of the specimen
     bool head;                         ///< below the head-rear section
     double tip_aspect;                 ///< of a cone's cells at its tip
+    double cylinder_growth;            ///< of a cylinder's aspect, a radius
 
     double radius_at(double height) const {
         return std::lerp(bottom_radius, top_radius, (height - bottom) / (top - bottom));
@@ -87,7 +88,8 @@ std::vector<Section> sections_of(const specimen::Shape& shape, bool refined) {
         const bool head = height[i + 1] <= shape.head_length * (1 + 1e-12);
         sections.push_back({height[i], height[i + 1], shape.station_radius[i],
                             shape.station_radius[i + 1], shape.profile.kind, head,
-                            refined ? refined_tip_aspect : tip_aspect});
+                            refined ? refined_tip_aspect : tip_aspect,
+                            refined ? refined_cylinder_growth : cylinder_growth});
     }
     return sections;
 }

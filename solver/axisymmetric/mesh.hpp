@@ -24,8 +24,8 @@ struct Mesh {
 /// Cuts the profile into `across` columns over the radius of a cylinder's rear and rows
 /// to match. A head or a cone has three quarters or five eighths as many columns of its
 /// own. Cells of heads and tips start taller than wide, since the impact flattens them.
-/// `refined` gives cylinders and heads some more columns, a cone's tip some more rows,
-/// and the cone and the narrower head narrower columns at the rim.
+/// `refined` gives cylinders and the wider head some more columns, cylinders and a cone's
+/// tip some more rows, and the cone and the narrower head narrower columns at the rim.
 Mesh make_mesh(const specimen::Shape& shape, int across, bool refined);
 
 }  // namespace taylorcal::axisymmetric

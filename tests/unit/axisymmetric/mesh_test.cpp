@@ -71,5 +71,5 @@ TEST_CASE("refined meshes have more cells, or narrower ones at the rim") {
     CHECK(rim(specimen::reduced_head_4mm, true) == Approx(1));
     CHECK(rim(specimen::reduced_head_3mm, false) == Approx(1));
     CHECK(rim(specimen::reduced_head_3mm, true) < 0.9);
-    CHECK(rim(specimen::truncated_cone, true) == Approx(0.2));  // five columns
+    CHECK(rim(specimen::truncated_cone, true) == Approx(0.4));  // 0.25 + 0.75 / 5
 }

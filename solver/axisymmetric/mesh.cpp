@@ -35,7 +35,7 @@ struct Division {
 };
 
 /// Refined divisions are what brings sizes to their limits within 1 % or so
-/// (tests/verification, convergence); the others, within 2 %, are cheaper. Narrow columns
+/// (tests/verification, convergence); the others are cheaper. Narrow columns
 /// at the rim follow the foot as it spreads and cost nothing, for it is the flattened
 /// cells' height that sets their steps; narrower ones than a cone's gain energy in hard
 /// metal that rings. Heads of other widths are cut as the nearer of the paper's two.
@@ -61,8 +61,7 @@ struct Section {
     double bottom_radius, top_radius;  ///< [m]
     specimen::ProfileKind kind;        ///< of the specimen
     bool head;                         ///< below the head-rear section
-    double tip_aspect;                 ///< of a cone's cells at its tip
-    double cylinder_growth;            ///< of a cylinder's aspect, a radius
+    bool refined;                      ///< cut into more rows
 
     double radius_at(double height) const {
         return std::lerp(bottom_radius, top_radius, (height - bottom) / (top - bottom));
@@ -72,11 +71,13 @@ struct Section {
         if (kind == specimen::ProfileKind::cylinder)
             return radii < cylinder_square_radii
                        ? square_aspect
-                       : cylinder_aspect + cylinder_growth * radii;
+                       : cylinder_aspect +
+                             (refined ? refined_cylinder_growth : cylinder_growth) *
+                                 radii;
         if (!head) return square_aspect;
         if (kind != specimen::ProfileKind::tapered) return head_aspect;
         const double share = std::min(1.0, radii / cone_tip_radii);
-        return std::lerp(tip_aspect, square_aspect, share);
+        return std::lerp(refined ? refined_tip_aspect : tip_aspect, square_aspect, share);
     }
 };
 
@@ -88,8 +89,7 @@ std::vector<Section> sections_of(const specimen::Shape& shape, bool refined) {
         const bool head = height[i + 1] <= shape.head_length * (1 + 1e-12);
         sections.push_back({height[i], height[i + 1], shape.station_radius[i],
                             shape.station_radius[i + 1], shape.profile.kind, head,
-                            refined ? refined_tip_aspect : tip_aspect,
-                            refined ? refined_cylinder_growth : cylinder_growth});
+                            refined});
     }
     return sections;
 }

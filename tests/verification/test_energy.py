@@ -54,13 +54,8 @@ def test_energy_of_a_ringing_elastic_cylinder_is_balanced(solver):
 def test_cells_that_step_less_often_do_not_resonate_with_their_neighbours(
     solver, shape, velocity, hardening, immobilization
 ):
-    question = ["--shape", shape, "--velocity", str(velocity)]
-    question += [
-        "--set",
-        "rho_immobile_initial=1e15",
-        "--set",
-        f"hardening_coefficient={hardening}",
-    ]
+    question = ["--shape", shape, "--velocity", str(velocity), "--set", "rho_immobile_initial=1e15"]
+    question += ["--set", f"hardening_coefficient={hardening}"]
     question += ["--set", f"immobilization_velocity={immobilization}"]
     assert descriptors(solver, *question, fidelity="standard")["energy_error"] < 0.001
 
